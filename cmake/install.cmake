@@ -19,6 +19,7 @@ plekton_public_headers(public_headers
   dynamics/output/scene_frame.hpp
   dynamics/output/vtk_writer.hpp
   dynamics/measures/unbalanced_force.hpp
+  dynamics/scene_check.hpp
   dynamics/simulation.hpp
   dynamics/structure/bonds_along.hpp
   dynamics/structure/membrane_force.hpp

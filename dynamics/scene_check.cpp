@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/scene_check.hpp"
+
 #include "dynamics/loads/loads_check.hpp"
 #include "dynamics/model/rigid_check.hpp"
 #include "dynamics/model/scene.hpp"
@@ -244,8 +246,8 @@ class SceneProblems {
 
 }  // namespace
 
-void Scene::check() const {
-  SceneProblems problems(*this);
+void check(const Scene& scene) {
+  SceneProblems problems(scene);
   problems.list_all();
   problems.throw_if_any();
 }

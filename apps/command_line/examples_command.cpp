@@ -5,7 +5,6 @@
 #include "apps/programs/shell_word.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/problems.hpp"
-#include "apps/scenario/section.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 
 #include "apps/command_line/command_table.hpp"
 #include "apps/scenario/closest_word.hpp"
-#include "apps/scenario/section.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

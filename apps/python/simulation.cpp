@@ -6,7 +6,6 @@
 #include "apps/run/reactions.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/scenario_reader.hpp"
-#include "apps/scenario/section.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/state_hash.hpp"

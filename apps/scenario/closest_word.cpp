@@ -59,4 +59,8 @@ std::string did_you_mean(std::string_view written, std::span<const std::string_v
   return closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest);
 }
 
+std::string listed(std::span<const std::string_view> words) {
+  return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\", \""));
+}
+
 }  // namespace plekton::apps

@@ -21,4 +21,7 @@ std::string closest_word(std::string_view written, std::span<const std::string_v
 /// As in `; did you mean "radius"?`, to end a message with; empty if no word is near.
 std::string did_you_mean(std::string_view written, std::span<const std::string_view> known);
 
+/// Words in quotes with commas between them.
+std::string listed(std::span<const std::string_view> words);
+
 }  // namespace plekton::apps

@@ -2,7 +2,6 @@
 #include "apps/scenario/overrides.hpp"
 
 #include "apps/scenario/closest_word.hpp"
-#include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/grain_table.hpp"
 #include "apps/scenario/read_measure.hpp"
 #include "apps/scenario/read_ondem_source.hpp"

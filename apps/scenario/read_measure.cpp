@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_measure.hpp"
 
+#include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/read_load_targets.hpp"
 #include "apps/scenario/read_sections.hpp"
 

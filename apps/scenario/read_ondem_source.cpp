@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_ondem_source.hpp"
 
+#include "apps/scenario/closest_word.hpp"
 #include "dynamics/ondem/read_ondem.hpp"
 
 #include <fmt/format.h>

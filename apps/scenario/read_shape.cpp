@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/read_membrane_source.hpp"
 
 #include <fmt/format.h>

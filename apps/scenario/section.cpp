@@ -2,15 +2,32 @@
 #include "apps/scenario/section.hpp"
 
 #include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/read_value.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace plekton::apps {
+namespace {
 
-std::string listed(std::span<const std::string_view> words) {
-  return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\", \""));
+using Kind = ValueType::Kind;
+
+}  // namespace
+
+std::string problem_with_name(const std::string& name) {
+  const bool is_one_line = std::none_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == 127;
+  });
+  if (!is_one_line)
+    return "has a line break or another control character; expected a name on one line";
+  // A spreadsheet would carry out what stands there.
+  if (name.find_first_of("=+-@") != 0) return "";
+  return fmt::format(
+      "got \"{}\"; expected a name that does not begin with = + - or @, which a spreadsheet takes "
+      "for a formula",
+      name);
 }
 
 Section::Section(const Table& table, Place place, std::string path, Problems& problems,
@@ -69,9 +86,158 @@ const Value* Section::require(std::string_view key) {
 void Section::complain(std::string_view key, const std::string& what) {
   problems_->add(place_of(key), fmt::format("{}: {}", path_of(key), what));
 }
+
 void Section::tell_default(std::string_view key, std::string_view text) {
   if (recorder_) recorder_->set_standard(path_of(key), std::string(text));
 }
+
+double Section::quantity(std::string_view key, const Quantity& expected) {
+  if (records(key, ValueType::of(Kind::quantity, expected), {})) return kUnread;
+  const Value* value = require(key);
+  return value ? read_quantity(*value, path_of(key), expected, *problems_) : kUnread;
+}
+
+double Section::quantity(std::string_view key, const Quantity& expected, double fallback) {
+  const std::string standard = expected.range.holds(fallback) ? standard_text(fallback) : "none";
+  if (records(key, ValueType::of(Kind::quantity, expected), standard)) return fallback;
+  const Value* value = find(key);
+  return value ? read_quantity(*value, path_of(key), expected, *problems_) : fallback;
+}
+
+std::optional<double> Section::quantity_unless(std::string_view key, std::string_view word,
+                                               const Quantity& expected) {
+  ValueType type = ValueType::of(Kind::quantity, expected);
+  type.words.emplace_back(word);
+  if (records(key, type, fmt::format("\"{}\"", word))) return std::nullopt;
+  const Value* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  const auto* text = std::get_if<std::string>(&value->data);
+  if (text && *text == word) return std::nullopt;
+  return read_quantity(*value, path_of(key), expected, *problems_);
+}
+
+geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected) {
+  if (records(key, ValueType::of(Kind::vector, expected), {}))
+    return geometry::Vec3::Constant(kUnread);
+  const Value* value = require(key);
+  return value ? read_vector(*value, path_of(key), expected, *problems_)
+               : geometry::Vec3::Constant(kUnread);
+}
+
+geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected,
+                               const geometry::Vec3& fallback) {
+  if (records(key, ValueType::of(Kind::vector, expected),
+              fmt::format("[{:g}, {:g}, {:g}]", fallback[0], fallback[1], fallback[2])))
+    return fallback;
+  const Value* value = find(key);
+  return value ? read_vector(*value, path_of(key), expected, *problems_) : fallback;
+}
+
+std::vector<geometry::Vec3> Section::vectors(std::string_view key, const Quantity& expected,
+                                             std::size_t least) {
+  ValueType type = ValueType::of(Kind::vectors, expected);
+  type.least = least;
+  if (records(key, type, {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  return read_vectors(*value, path_of(key), expected, least, *problems_);
+}
+
+std::vector<double> Section::quantities(std::string_view key, const Quantity& expected,
+                                        std::optional<std::size_t> count) {
+  if (records(key, ValueType::of(Kind::quantities, expected), {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  return read_quantities(*value, path_of(key), expected, count, *problems_);
+}
+
+std::vector<std::int32_t> Section::places(std::string_view key, std::size_t columns,
+                                          std::size_t size) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  if (records(key,
+              ValueType::whole_from(Kind::whole_rows, std::vector<std::int64_t>(columns, 0), kMost),
+              {}))
+    return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  return read_places(*value, path_of(key), columns, size, *problems_);
+}
+
+std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64_t high,
+                              std::optional<std::int64_t> fallback) {
+  if (records(key, ValueType::whole_from(Kind::whole_number, {low}, high),
+              fallback ? std::optional(std::to_string(*fallback)) : std::nullopt))
+    return fallback.value_or(low);
+  const std::int64_t otherwise = fallback.value_or(0);
+  const Value* value = fallback ? find(key) : require(key);
+  if (value == nullptr) return otherwise;
+  return read_whole_number(*value, path_of(key), low, high, *problems_).value_or(otherwise);
+}
+
+std::vector<int> Section::integers(std::string_view key, std::vector<int> least, int most) {
+  if (records(key, ValueType::whole_from(Kind::whole_numbers, {least.begin(), least.end()}, most),
+              {}))
+    return least;
+  const Value* value = require(key);
+  return value ? read_whole_numbers(*value, path_of(key), least, most, *problems_) : least;
+}
+
+std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, const Quantity& first,
+                                                        const Quantity& second) {
+  if (records(key, ValueType::of(Kind::pairs, first, second), {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  return read_rising_rows(*value, path_of(key), first, second, *problems_);
+}
+
+bool Section::truth(std::string_view key, bool fallback) {
+  if (records(key, ValueType::of(Kind::truth), fallback ? "true" : "false")) return fallback;
+  const Value* value = find(key);
+  return value ? read_truth(*value, path_of(key), *problems_).value_or(fallback) : fallback;
+}
+
+std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
+  if (records(key, ValueType::of(Kind::text), fallback == "" ? "none" : fallback))
+    return fallback.value_or("");
+  const Value* value = fallback ? find(key) : require(key);
+  return value ? read_text(*value, path_of(key), *problems_) : fallback.value_or("");
+}
+
+std::string Section::name(std::string_view key, const std::optional<std::string>& fallback) {
+  const std::string name = text(key, fallback);
+  const std::string problem = problem_with_name(name);
+  if (problem.empty()) return name;
+  complain(key, problem);
+  return "";
+}
+
+std::vector<std::string> Section::texts(std::string_view key) {
+  if (records(key, ValueType::of(Kind::texts), {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  return read_texts(*value, path_of(key), *problems_);
+}
+
+std::size_t Section::choice(std::string_view key, std::span<const std::string_view> words,
+                            std::optional<std::size_t> fallback) {
+  if (!recorder_ && !fallback && require(key) == nullptr) return 0;
+  return known_choice(key, words, fallback).value_or(0);
+}
+
+std::optional<std::size_t> Section::known_choice(std::string_view key,
+                                                 std::span<const std::string_view> words,
+                                                 std::optional<std::size_t> fallback) {
+  if (records(key, ValueType::word_of(words),
+              fallback ? std::optional(fmt::format("\"{}\"", words[*fallback])) : std::nullopt))
+    return recorder_->choice(path_of(key), words).value_or(fallback.value_or(0));
+  const Value* value = find(key);
+  if (value) return read_word(*value, path_of(key), words, *problems_);
+  if (fallback) return fallback;
+  problems_->add(place_,
+                 fmt::format("{}: missing; expected one of {}", path_of(key), listed(words)));
+  return std::nullopt;
+}
+
 std::optional<Section> Section::table(std::string_view key) {
   if (recorder_ && !recorder_->ask(path_of(key))) return std::nullopt;
   if (recorder_) return within(*table_, place_, path_of(key));

@@ -112,10 +112,6 @@ class Section {
                const std::optional<std::string>& standard) const;
   const Value* find(std::string_view key);
   const Value* require(std::string_view key);
-  double read_quantity(const Value& value, const std::string& path, const Quantity& expected);
-  std::optional<std::size_t> position_of(const Value& value, std::string_view key,
-                                         std::span<const std::string_view> words);
-  geometry::Vec3 read_vector(const Value& value, const std::string& path, const Quantity& expected);
 
   const Table* table_;
   Place place_;
@@ -124,9 +120,6 @@ class Section {
   KeyRecorder* recorder_;
   std::vector<std::string> announced_;
 };
-
-/// Words in quotes with commas between them.
-std::string listed(std::span<const std::string_view> words);
 
 /// What is wrong with a name, which becomes the head of a column; empty: nothing.
 std::string problem_with_name(const std::string& name);

@@ -2,7 +2,6 @@
 #include "apps/scenario/staged_scenario.hpp"
 
 #include "apps/scenario/closest_word.hpp"
-#include "apps/scenario/section.hpp"
 
 #include <fmt/format.h>
 

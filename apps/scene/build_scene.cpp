@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_scene.hpp"
 
-#include "apps/scenario/section.hpp"
+#include "apps/scenario/closest_word.hpp"
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/build_ties.hpp"

@@ -19,7 +19,7 @@
 namespace plekton::dynamics {
 
 /// Everything a simulation starts from: plain data that can be built by hand, by a reader or by a
-/// generator.
+/// generator. dynamics/scene_check.hpp says what is wrong with one.
 struct Scene {
   NodeState state = {};
   NodeProperties properties = {};
@@ -83,13 +83,6 @@ struct Scene {
   /// @returns  its place in rigid_bodies
   std::size_t add_rigid_body(std::span<const NodeId> nodes, const MassProperties& mass,
                              Held held = Held::nothing);
-
-  /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
-  ///         range, a node without mass that is not held, a value that is not finite, a structure
-  ///         of several materials, a facet without area, a cylinder without length, a sphere on a
-  ///         node of another element, rigid bodies that share nodes or have bonds of their own,
-  ///         ties that hold nothing, loads that cannot be applied.
-  void check() const;
 };
 
 }  // namespace plekton::dynamics

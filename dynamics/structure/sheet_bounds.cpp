@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/sheet_bounds.hpp"
+
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/stiffness/small_eigenvalue.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-/// How stiff the facets of a sheet are at most, for the critical time step.
 namespace plekton::dynamics {
 namespace {
 
@@ -51,7 +52,7 @@ Eigen::Matrix<double, 9, 9> bending_stiffness(const SheetSpring& spring, double 
 
 }  // namespace
 
-SheetFacets::Bounds SheetFacets::bounds_of(const SheetFacet& facet, const SheetSpring& spring) {
+SheetBounds bounds_of(const SheetFacet& facet, const SheetSpring& spring) {
   // Of a ball of the thickness, as nodes have it (lumped_mass.hpp). Any other radius gives a bound
   // as well, but a looser one.
   const double gyration = 0.1 * facet.section.thickness * facet.section.thickness;
@@ -67,20 +68,13 @@ SheetFacets::Bounds SheetFacets::bounds_of(const SheetFacet& facet, const SheetS
           spring.shape.area * largest_eigenvalue(slopes)};
 }
 
-void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state) const {
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    if (!is_broken(i)) add_to(stiffness, state, i);
-  }
-}
-
 // Stretching acts on F^T du, which is longer than du by at most the largest stretch s: its matrix
 // is below s² times that at rest, plus the tension times the gradients of the shape functions. A
 // lever of bending is an edge, which is longer by s at most as well.
-void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
-                         std::size_t facet) const {
-  const SheetSpring& spring = springs_[facet];
-  const Bounds& bounds = bounds_[facet];
-  const SheetPose pose = pose_of(spring, nodes_[facet], state);
+void add_stiffness(const SheetSpring& spring, const SheetBounds& bounds,
+                   const std::array<NodeId, 3>& nodes, const NodeState& state,
+                   NodalStiffness& stiffness) {
+  const SheetPose pose = pose_of(spring, nodes, state);
   const auto f = deformation_gradient(spring.shape, pose.x);
   const Eigen::Matrix2d metric = f.transpose() * f;
   const double stretch = std::max(1.0, larger_eigenvalue(metric));  // squared
@@ -102,7 +96,7 @@ void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
   const Mat3 translation = about_normal(across, in_plane);
   const Mat3 rotation =
       about_normal(stretch * bounds.turning, bounds.gyration * stretch * bounds.across);
-  for (const NodeId node : nodes_[facet]) stiffness.add_to_node(node, translation, rotation);
+  for (const NodeId node : nodes) stiffness.add_to_node(node, translation, rotation);
 }
 
 }  // namespace plekton::dynamics

@@ -132,6 +132,17 @@ Mat3 SheetFacets::membrane_force(std::size_t facet, geometry::Positions position
   return f * (stress / area_ratio) * f.transpose();
 }
 
+void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state) const {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    if (!is_broken(i)) add_to(stiffness, state, i);
+  }
+}
+
+void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
+                         std::size_t facet) const {
+  add_stiffness(springs_[facet], bounds_[facet], nodes_[facet], state, stiffness);
+}
+
 void SheetFacets::exchange(const geometry::StateArchive& archive) {
   const std::size_t count = size();
   archive.fixed("broken", broken_, "facets of sheets");

@@ -3,6 +3,7 @@
 
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_blocks.hpp"
+#include "dynamics/structure/sheet_bounds.hpp"
 #include "dynamics/structure/sheet_spring.hpp"
 #include "geometry/base/thread_pool.hpp"
 
@@ -117,21 +118,12 @@ class SheetFacets {
   void exchange(const geometry::StateArchive& archive);
 
  private:
-  /// Largest eigenvalues at rest of the parts of a facet's stiffness matrix.
-  struct Bounds {
-    double in_plane;  ///< N/m
-    double across;    ///< N/m, of normal motion, and of rotations times their radius
-    double turning;   ///< N m, about the normal
-    double gyration;  ///< m², squared radius by which rotations are counted
-    double tension;   ///< -, times the membrane force: of the tension
-  };
-  static Bounds bounds_of(const SheetFacet& facet, const SheetSpring& spring);
   double lost_by_break(std::size_t facet, const NodeState& state, double drift) const noexcept;
   void take_out(std::size_t facet, double lost);
 
   std::vector<std::array<NodeId, 3>> nodes_;
   std::vector<SheetSpring> springs_;
-  std::vector<Bounds> bounds_;
+  std::vector<SheetBounds> bounds_;
   std::vector<SheetReaction> reactions_;
   std::vector<std::uint8_t> broken_;      ///< 1 if it broke
   std::vector<std::size_t> limited_;      ///< those with a strength, ascending

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/scene_check.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"
@@ -41,7 +42,7 @@ inline LoadedSimulation simulation_of(Scene scene, double time_step,
 
 inline std::string problems_of(const Scene& scene) {
   try {
-    scene.check();
+    dynamics::check(scene);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }

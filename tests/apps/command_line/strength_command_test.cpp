@@ -2,6 +2,7 @@
 // Membranes that yield and break, as the user of the program meets them.
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scene/build_scene.hpp"
+#include "dynamics/scene_check.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ rupture_strain = "12 %")");
   EXPECT_EQ(strength.hardening, 50e6);
   EXPECT_EQ(strength.strength, 30e6);
   EXPECT_DOUBLE_EQ(strength.rupture_strain, 0.12);
-  EXPECT_NO_THROW(scene.scene.check());
+  EXPECT_NO_THROW(dynamics::check(scene.scene));
 }
 
 TEST_F(StrengthCommand, LeavesBeamsElasticUnlessTold) {
@@ -140,7 +141,7 @@ twist_wire = [["1 %", "3 kN"]])");
   for (const std::size_t bond : twists)
     EXPECT_NEAR(scene.scene.bonds[bond].length, 0.04, 1e-12);  // of twist_length
   EXPECT_NEAR(scene.membranes[0].young_modulus, 1e5 / (std::numbers::pi * 1e-6), 1.0);
-  EXPECT_NO_THROW(scene.scene.check());
+  EXPECT_NO_THROW(dynamics::check(scene.scene));
 }
 
 TEST_F(StrengthCommand, NamesWhatIsWrongWithItsLineAndARemedy) {

@@ -3,6 +3,7 @@
 
 #include "apps/grains/free_space.hpp"
 #include "apps/scenario/scenario_reader.hpp"
+#include "dynamics/scene_check.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -144,7 +145,7 @@ TEST_F(BuildScene, MakesAThinSheetOfTheFacetsInModeContinuum) {
     EXPECT_NEAR(section.bending_stiffness, 20e3 * 4e-6 / (12.0 * (1.0 - 0.04)), 1e-15);
     EXPECT_NEAR(total_mass(scene.scene, sheet.first_node, sheet.nodes), 0.3 * 0.06,
                 kSum * sheet.mass);
-    EXPECT_NO_THROW(scene.scene.check());
+    EXPECT_NO_THROW(dynamics::check(scene.scene));
   }
 }
 
@@ -257,7 +258,7 @@ TEST_F(BuildScene, TellsTheFrictionCoefficientFromTheAngle) {
 }
 
 TEST_F(BuildScene, PassesTheChecksOfTheScene) {
-  EXPECT_NO_THROW(built().scene.check());
+  EXPECT_NO_THROW(dynamics::check(built().scene));
 }
 
 TEST_F(BuildScene, ReportsAllThatOnlyTheFilesShow) {

@@ -4,6 +4,7 @@
 
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scene/node_set.hpp"
+#include "dynamics/scene_check.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/clumps.hpp"
 
@@ -71,7 +72,7 @@ BuiltScene built(const std::vector<std::string>& overrides = {}) {
 
 std::string error_of(const std::vector<std::string>& overrides) {
   try {
-    built(overrides).scene.check();
+    dynamics::check(built(overrides).scene);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -3,6 +3,7 @@
 #include "apps/scene/rigid_builder.hpp"
 
 #include "apps/scenario/scenario_reader.hpp"
+#include "dynamics/scene_check.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -74,7 +75,7 @@ BuiltScene built(const std::vector<std::string>& overrides = {}) {
 std::string error_of(const std::vector<std::string>& overrides) {
   try {
     const BuiltScene scene = built(overrides);
-    scene.scene.check();
+    dynamics::check(scene.scene);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/damped_sheets.hpp"
 
+#include "dynamics/scene_check.hpp"
 #include "tests/support/linear_algebra.hpp"
 #include "tests/support/loaded_scene.hpp"
 #include "tests/support/seeded_random.hpp"
@@ -180,7 +181,7 @@ TEST(DampedSheets, AreRefusedWithAFacetThatIsNotThereOrANegativeRatio) {
   scene.loads.sheet_damping.push_back({{0, 2, 0}, -0.1});
   scene.loads.sheet_damping.push_back({{}, 0.1});
   try {
-    scene.check();
+    dynamics::check(scene);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("there is no sheet facet 2, only 2 sheet facets"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/sheet_facets.hpp"
 
+#include "dynamics/scene_check.hpp"
 #include "dynamics/structure/membrane_force.hpp"
 #include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"
@@ -324,7 +325,7 @@ TEST(SheetFacets, ListEveryProblem) {
   scene.sheet_facets[1].corners.fill({1.0, 1.0});
 
   try {
-    scene.check();
+    dynamics::check(scene);
     FAIL() << "no problem found";
   } catch (const std::invalid_argument& problems) {
     const std::string text = problems.what();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/yielding_bonds.hpp"
 
+#include "dynamics/scene_check.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/state_hash.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
@@ -251,7 +252,7 @@ TEST(Scene, ListsBondLawsThatDoNotFit) {
   Scene scene = yielding_beams();
   scene.bond_laws.push_back({WireCurve{}, {0}});
   try {
-    scene.check();
+    dynamics::check(scene);
     ADD_FAILURE() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("bond law 1: has no points"), std::string::npos);
