@@ -52,6 +52,7 @@ Vec3 area_share(const Corners& facet, Positions x) noexcept {
 PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
                                const NodeState& at_start)
     : load_(load),
+      is_by_volume_(load.by_volume.has_value()),
       by_volume_(table_of(load.by_volume)),
       members_(corners_of(load, facets)),
       nodes_(members_.nodes()),

@@ -81,8 +81,8 @@ class PressedSurface {
   /// makes the surface breathe: its stiffness is dp/dV (dV/dx)(dV/dx)^T, of rank one.
   double gas_frequency_squared(geometry::Positions x, const NodeProperties& properties) const;
 
-  /// Whether its pressure follows the volume by a table.
-  bool is_by_volume() const noexcept { return by_volume_.has_value(); }
+  /// Whether its pressure follows the volume by a table, or did before the surface was torn.
+  bool is_by_volume() const noexcept { return is_by_volume_; }
 
  private:
   double pressure_at(double time, double volume) const;
@@ -90,6 +90,7 @@ class PressedSurface {
   bool follows_volume() const noexcept { return load_.gas || by_volume_; }
 
   SurfacePressure load_;
+  bool is_by_volume_;
   std::optional<TimeTable> by_volume_;  // Pa, with m³ in place of the time
   NodeMembers<3> members_;
   LoadedNodes nodes_;
