@@ -142,6 +142,74 @@ class SeededTree(unittest.TestCase):
         self.assertEqual(len(found), 2, found)
         self.assertIn("whose folder leads back to geometry/base", found[0])
 
+    def members(self, code, namespace="plekton::dynamics"):
+        return TAG + f"namespace {namespace} {{\n{code}\n}}  // namespace {namespace}\n"
+
+    def test_a_class_with_members_in_two_sources_is_flagged(self):
+        for code in (
+            "void Scene::check() const {\n}",
+            "Scene::Scene(int size) : size_{size}, names_(size) {}",
+            "Scene::~Scene() = default;",
+            "Scene& Scene::operator=(Scene&&) = default;",
+            "bool Scene::operator<(const Scene& other) const {\n  return size_ < other.size_;\n}",
+            "Scene::operator bool() const {\n}",
+            "std::vector<std::array<double, 2>> Scene::rows(int count) {\n}",
+            "const geometry::Vec3&\nScene::place_of(NodeId node) const noexcept {\n}",
+            "template <>\nvoid Scene::add<int>(int number) {\n}",
+            "template <class T>\nvoid Scene<T>::add(T number) {\n}",
+            "std::function<void(int)> Scene::told() const {\n}",
+            "const std::array<int, 2> Scene::kSizes = {1, 2};",
+            "void Scene::Part::move() {\n}",
+            "struct Scene::Part : Base {\n  int size;\n};",
+            "namespace {\nint size() {\n  return '{';\n}\n}  // namespace\nint Scene::size() const {\n}",
+        ):
+            with self.subTest(code=code):
+                self.write("dynamics/model/scene.cpp", self.members("std::size_t Scene::size() const {\n}"))
+                reason = "members of plekton::dynamics::Scene, as dynamics/model/scene.cpp"
+                self.assert_flagged("dynamics/model/check.cpp", self.members(code), reason)
+
+    def test_the_line_of_the_first_member_in_the_other_source_is_named(self):
+        self.write("dynamics/model/scene.cpp", self.members("int Scene::size() {\n}"))
+        free = "int free_size() {\n  if (true) {\n    return Scene::none();\n  }\n}\n"
+        code = self.members(free + "\n/// Its place.\nint Scene::place() {\n}\nint Scene::last() {\n}")
+        self.assert_flagged("dynamics/model/check.cpp", code, "dynamics/model/check.cpp:10:")
+
+    def test_the_source_of_the_name_of_the_class_is_its_own_wherever_it_stands(self):
+        self.write("contact/tracking/all_pairs.cpp", self.members("int PairList::size() {\n}", "plekton::contact"))
+        self.write("contact/tracking/pair_list.cpp", self.members("int PairList::last() {\n}", "plekton::contact"))
+        found = self.violations_of("contact/tracking/words.cpp", self.members("int contact::PairList::next() {\n}", "plekton"))
+        flagged = [violation.split(":")[0] for violation in found]
+        self.assertEqual(flagged, ["contact/tracking/all_pairs.cpp", "contact/tracking/words.cpp"])
+
+    def test_what_is_no_member_of_a_class_may_be_in_any_source(self):
+        self.write("dynamics/model/scene.cpp", self.members("int Scene::size() const {\n}"))
+        self.write("geometry/primitives/box.hpp", TAG + "namespace plekton::geometry {\n}\n")
+        for code in (
+            "Scene::Part part_of(const Scene& scene) {\n  return Scene::Part(scene);\n}",
+            "std::vector<Scene::Part> parts = {Scene::none()};",
+            "const int size = Scene::count();",
+            "bool operator==(const Scene& a, const Scene::Part& b) {\n}",
+            "template int Scene::count<int>() const;",
+            "extern template class Scene::Parts<int>;",
+            "using Scene::Part;",
+            "using Part = Scene::Part;",
+            "// int Scene::count() {}\n/* int Scene::count() {} */",
+            'const char* text = R"(\nint Scene::count() {}\n)";',
+            "void geometry::grow(Box& box) {\n}",
+            "#define COUNT \\\nint Scene::count()",
+        ):
+            with self.subTest(code=code):
+                self.write("dynamics/model/others.cpp", self.members(code))
+                self.assert_clean("dynamics/model/parts.cpp", self.members(code))
+
+    def test_classes_of_one_name_in_other_namespaces_and_sources_are_not_confused(self):
+        member = "int Scene::size() const {\n}"
+        self.write("dynamics/model/scene.cpp", self.members(member))
+        self.assert_clean("apps/scene/scene.cpp", self.members(member, "plekton::apps"))
+        own = "namespace {\nclass Scene {\n  int size() const;\n};\n" + member + "\n}  // namespace"
+        self.assert_clean("dynamics/model/own.cpp", self.members(own))
+        self.assert_clean("tests/dynamics/model/scene_test.cpp", self.members(member, "plekton::scene_test"))
+
     def test_an_installed_header_that_names_one_that_is_not_is_flagged(self):
         self.write("cmake/install.cmake", f"# {SPDX}\nplekton_public_headers(public_headers\n  dynamics/model/scene.hpp\n  geometry/mesh/repair/repair.hpp)\n")
         self.write("dynamics/model/scene.hpp", TAG + '#include "geometry/primitives/box.hpp"\n/// As geometry/primitives/box.hpp and repair.hpp.\n')

@@ -175,6 +175,7 @@ def forget_tree():
     _reached_from.cache_clear()
     _homes_of_types.cache_clear()
     _public_headers.cache_clear()
+    _sources_of_classes.cache_clear()
 
 
 NAMESPACE_OR_TYPE = re.compile(r"^(?:namespace (?P<namespace>[\w:]+) \{|(?:class|struct|enum class) (?:alignas\([^)]*\) )?(?P<type>\w+)\b(?! *<)(?![^\n]*;$))", re.MULTILINE)
@@ -280,6 +281,119 @@ def no_circles(source, root):
             yield f"{where}, whose folder leads back to {source.directory}; put it into a folder below both"
 
 
+_COMMENTS_AND_TEXTS = re.compile(
+    r"""R"(?P<end>[^\s()\\]*)\(.*?\)(?P=end)"|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'""", re.DOTALL
+)
+
+
+def _blank(match):
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def _code_of(text):
+    """The text with comments and literal texts blank, on the same lines."""
+    return _COMMENTS_AND_TEXTS.sub(_blank, text)
+
+
+_NO_MEMBER = re.compile(r"(?:extern\s+)?template\s*[^<\s]|(?:using|typedef|friend|static_assert)\b|[^\w\[]")
+"""How a declaration begins that defines no member: instantiations, other names, the rest of a list of initialisers."""
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """One at the scope of a namespace, up to its first brace or semicolon."""
+
+    line: int
+    namespace: str
+    text: str
+    has_braces: bool
+
+    @property
+    def own_type(self):
+        """Name of the class that is defined here; of one inside another: none."""
+        found = re.match(r"(?:class|struct)\s+(?:alignas\([^)]*\)\s*)?(\w+)\b(?!\s*::)", self.without_templates)
+        return found[1] if found and self.has_braces else None
+
+    @property
+    def qualifiers(self):
+        """What stands before the name of a member: its class, and what that is in."""
+        if _NO_MEMBER.match(self.text):
+            return []
+        declarator = re.split(r"[(=]|(?<!:):(?!:)", self.without_templates)[0]
+        found = re.search(r"(?<![\w:])((?:\w+::)+)(?:~?\w+)?\s*$", declarator)
+        return found[1].split("::")[:-1] if found else []
+
+    @property
+    def without_templates(self):
+        """Without what is in angle brackets and the name of an operator, in which there may be others."""
+        text = re.sub(r"^template\s*(?=<)", "", re.split(r"\boperator\b", self.text)[0])
+        shorter = re.sub(r"<[^<>]*>", "", text)
+        while shorter != text:
+            text, shorter = shorter, re.sub(r"<[^<>]*>", "", shorter)
+        return text.strip()
+
+
+def _declarations(text):
+    """Those of a source at the scope of its namespaces, the unnamed ones left out of their names."""
+    without_macros = re.sub(r"^[ \t]*#(?:\\\n|[^\n])*", _blank, _code_of(text), flags=re.MULTILINE)
+    namespaces, depth, start, line = [], 0, 0, 1
+    for match in re.finditer(r"[{};]", without_macros):
+        end, head = match[0], without_macros[start : match.start()]
+        first_line = line + head[: len(head) - len(head.lstrip())].count("\n")
+        line += head.count("\n")
+        start = match.end()
+        if depth > 0:
+            depth += {"{": 1, "}": -1, ";": 0}[end]
+        elif end == "}":
+            namespaces[-1:] = []
+        elif end == "{" and (opened := re.search(r"\bnamespace\s*([\w:]*)\s*$|\bextern\s*$", head)):
+            namespaces.append(opened[1] or "")
+        else:
+            depth = int(end == "{")
+            if head.strip():
+                yield Declaration(first_line, "::".join(filter(None, namespaces)), head.strip(), end == "{")
+
+
+@lru_cache(maxsize=None)
+def _sources_of_classes(root):
+    """For every class with members outside of its braces: the sources with these, and the line of the first in each."""
+    declared, namespaces = {}, set()
+    for library in LIBRARIES:
+        for path in sorted((Path(root) / library).rglob("*.?pp")):
+            text = path.read_text(encoding="utf-8")
+            for name in re.findall(r"^namespace ([\w:]+)", text, re.MULTILINE):
+                namespaces.update(name.split("::"))
+            if path.suffix == ".cpp":
+                declared[path.relative_to(root).as_posix()] = list(_declarations(text))
+    sources = {}
+    for path, declarations in declared.items():
+        own = {declaration.own_type for declaration in declarations}
+        for declaration in declarations:
+            qualifiers = declaration.qualifiers
+            place = next((i for i, name in enumerate(qualifiers) if name not in namespaces), None)
+            if place is not None and qualifiers[place] not in own:
+                name = "::".join(filter(None, (declaration.namespace, *qualifiers[: place + 1])))
+                sources.setdefault(name, {}).setdefault(path, declaration.line)
+    return sources
+
+
+def no_class_in_parts(source, root):
+    """All that a class defines outside of its header is in one source, also what the classes in it define. One that is too
+    long for that does too much."""
+    if source.folder not in LIBRARIES or not source.path.endswith(".cpp"):
+        return
+    for name, lines in _sources_of_classes(str(root)).items():
+        if source.path not in lines or len(lines) == 1:
+            continue
+        stem = re.sub(r"(?<!^)(?=[A-Z])", "_", name.split("::")[-1]).lower()
+        home = min(lines, key=lambda path: (Path(path).stem != stem, path))
+        if source.path != home:
+            yield (
+                f"{source.path}:{lines[source.path]}: defines members of {name}, as {home} does; move them there, "
+                "or make functions or a class of their own of them"
+            )
+
+
 ELEMENTARY_HOMES = ("geometry/base/elementary.hpp", "geometry/base/elementary.cpp")
 """The only files that may have elementary functions of their own."""
 
@@ -305,12 +419,6 @@ FORBIDDEN_BITS = (
 FORBIDDEN_FLAGS = re.compile(
     r"-ffast-math|-Ofast|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffp-contract=(?!off)\w+"
 )
-_COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-
-
-def _code_of(text):
-    """The text with comments and literal texts blank, on the same lines."""
-    return _COMMENTS_AND_TEXTS.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
 
 
 def same_bits_on_every_processor(source, root):
@@ -346,4 +454,18 @@ def eigen_does_not_vectorise(source, root):
         yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type, public_headers_name_public_headers, tests_keep_to_themselves)
+RULES = (
+    layers,
+    app_layers,
+    mesh_stays_outside_the_core,
+    includes_from_the_root,
+    packages_stay_home,
+    licence_tag,
+    no_circles,
+    no_class_in_parts,
+    same_bits_on_every_processor,
+    eigen_does_not_vectorise,
+    one_home_for_each_type,
+    public_headers_name_public_headers,
+    tests_keep_to_themselves,
+)
