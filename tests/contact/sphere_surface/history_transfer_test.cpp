@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 /// The tangential spring of a contact follows the ball, whatever elements it crosses.
-namespace plekton::test::surface_history_test {
+namespace plekton::test::history_transfer_test {
 namespace {
 
 /// No sliding within the tests below.
@@ -218,4 +218,4 @@ TEST(Ball, FeelsTheSameWhateverTheOrderInWhichTheSurfaceWasCreated) {
 }
 
 }  // namespace
-}  // namespace plekton::test::surface_history_test
+}  // namespace plekton::test::history_transfer_test
