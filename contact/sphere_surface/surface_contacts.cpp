@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/surface_contacts.hpp"
 
+#include "contact/sphere_surface/single_feature_contact.hpp"
+#include "contact/sphere_surface/surface_contact_row.hpp"
+#include "contact/sphere_surface/surface_contacts_state.hpp"
+#include "contact/tracking/contact_state.hpp"
 #include "geometry/critical/descent.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace plekton::contact {
 
@@ -22,14 +31,11 @@ double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
         {sphere.material, sphere.radius, sphere.mass},
         {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
     const double range = sphere.radius + radius_b;
-    return Pair{sphere.radius,
-                range,
-                AnyLaw::without_attraction(parameters),
-                AnyLaw::attraction(parameters),
-                sphere.node,
-                range + AnyLaw::interaction_range(parameters),
+    return Pair{{sphere.radius, range, AnyLaw::without_attraction(parameters),
+                 AnyLaw::attraction(parameters), sphere.node,
+                 range + AnyLaw::interaction_range(parameters)},
                 near[i],
-                old ? old->contacts : Range{},
+                old ? old->contacts : PatchContacts::Range{},
                 old ? old->single_face : kNoFace,
                 {}};
   };
@@ -41,7 +47,7 @@ double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
 double SurfaceContacts::drop(const Pair& pair) const {
   if (pair.contacts.count == 0) return 0.0;
   double lost = 0.0;
-  for (const Contact& contact : contacts_of(pair, current_)) {
+  for (const PatchContact& contact : current_.contacts_of(pair.contacts)) {
     lost += AnyLaw::history_energy(pair.parameters, contact.memory.history);
   }
   return lost;
@@ -50,15 +56,12 @@ double SurfaceContacts::drop(const Pair& pair) const {
 EnergyLoss SurfaceContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
   const auto worker_count = static_cast<std::size_t>(pool.thread_count());
   while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
-  current_.swap(previous_);
+  std::swap(current_, previous_);
   current_.resize(worker_count);
   previous_.resize(worker_count);
-  for (Lists& lists : current_) {
-    lists.contacts.clear();
-    lists.minima.clear();
-  }
+  current_.clear();
   for (Worker& worker : workers_) {
-    worker.pass_throughs = 0;
+    worker.histories.begin_step();
     make_room(worker.cells, watch_.cell_count());
   }
   records_.reset(pool.thread_count());
@@ -70,13 +73,7 @@ EnergyLoss SurfaceContacts::advance(const Motion& motion, double dt, geometry::T
 
 std::int64_t SurfaceContacts::pass_throughs() const noexcept {
   std::int64_t count = 0;
-  for (const Worker& worker : workers_) count += worker.pass_throughs;
-  return count;
-}
-
-std::size_t SurfaceContacts::touching() const noexcept {
-  std::size_t count = 0;
-  for (const Lists& lists : current_) count += lists.contacts.size();
+  for (const Worker& worker : workers_) count += worker.histories.pass_throughs();
   return count;
 }
 
@@ -84,7 +81,7 @@ double SurfaceContacts::elastic_energy() const {
   double energy = 0.0;
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0) continue;
-    for (const Contact& contact : contacts_of(pair, current_)) {
+    for (const PatchContact& contact : current_.contacts_of(pair.contacts)) {
       energy +=
           contact.elastic_energy + AnyLaw::history_energy(pair.parameters, contact.memory.history);
     }
@@ -111,7 +108,7 @@ EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end, co
       }
       loss += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count}, motion, dt,
                            worker_index);
-      pair.single_face = single_face_of(pair, current_);
+      pair.single_face = single_face_of(pair);
     }
   }
   return loss;
@@ -163,14 +160,12 @@ bool SurfaceContacts::may_be_single_feature(Pair& pair, const Motion& motion, Jo
 
 /// The facet whose inside is the only contact of a pair; none if there is no such facet, or the law
 /// is not written for contacts side by side.
-/// @param lists  with the contacts of the pair
-geometry::FaceId SurfaceContacts::single_face_of(const Pair& pair,
-                                                 const std::vector<Lists>& lists) const noexcept {
+geometry::FaceId SurfaceContacts::single_face_of(const Pair& pair) const noexcept {
   if (pair.contacts.count != 1 || !pair.parameters.law->advance_single_feature) return kNoFace;
-  const Contact& contact = contacts_of(pair, lists)[0];
-  if (contact.minimum_count != 1) return kNoFace;
-  const Feature minimum =
-      lists[static_cast<std::size_t>(pair.contacts.worker)].minima[contact.first_minimum];
+  const ContactsOfPair last = current_.of(pair.contacts);
+  const auto minima = last.minima_of(last.contacts[0]);
+  if (minima.size() != 1) return kNoFace;
+  const Feature minimum = minima[0];
   return minimum.kind == geometry::FeatureKind::face ? geometry::FaceId{minimum.id} : kNoFace;
 }
 
@@ -181,7 +176,7 @@ void SurfaceContacts::add_lane(const Pair& pair, const SideFlags& sides, Worker&
                    pair.radius,
                    pair.range,
                    &pair.parameters,
-                   &contacts_of(pair, previous_)[0].memory,
+                   &previous_.contacts_of(pair.contacts)[0].memory,
                    sides});
 }
 
@@ -191,9 +186,9 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   const geometry::FaceId face = worker.single_faces[lane];
   const SingleFeatureAnswer& answer = worker.lone.answer(lane);
   const double gap = answer.gap();
-  const std::int64_t id = contacts_of(pair, previous_)[0].id;
-  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
-  pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
+  const std::int64_t id = previous_.contacts_of(pair.contacts)[0].id;
+  PatchContacts::List& list = current_.of_worker(worker_index);
+  pair.contacts = {worker_index, static_cast<std::uint32_t>(list.contacts.size()), 1};
   // Member by member: what is copied as a whole right after it was written has to wait for that.
   SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
@@ -210,7 +205,7 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
   record.contact = pair.contacts.first;
 
-  Contact& contact = lists.contacts.emplace_back();
+  PatchContact& contact = list.contacts.emplace_back();
   answer.get_history(*pair.parameters.law, contact.memory.history);
   contact.memory.normal = answer.normal();
   contact.foot = answer.foot();
@@ -218,9 +213,9 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   contact.elastic_force = record.elastic;
   contact.elastic_energy = normal.energy(gap);
   contact.id = id;
-  contact.first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  contact.first_minimum = static_cast<std::uint32_t>(list.minima.size());
   contact.minimum_count = 1;
-  lists.minima.push_back(Feature(face));
+  list.minima.push_back(Feature(face));
   return answer.dissipated();
 }
 
@@ -256,19 +251,8 @@ void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells
                                          geometry::FunctionRef<bool(NodeId)> wants) const {
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0 || !wants(pair.node)) continue;
-    const NormalPart elastic(pair.parameters, 0.0);
-    const NormalLaw law(elastic, pair.range);
-    for (const Patch& patch :
-         finder.find(x[index_of(pair.node)], pair.reach,
-                     cells.subspan(pair.near.first, pair.near.count), x, law)) {
-      for (const PatchTerm& term : finder.terms(patch)) {
-        const double force = term.weight * law.force(term.distance) + term.slope;
-        const SurfaceForce record{
-            pair.node, 0.0F, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(),
-            force,     0,    0};
-        record.add_to(forces, [](NodeId) { return true; });
-      }
-    }
+    contact::add_elastic_forces(pair, finder, cells.subspan(pair.near.first, pair.near.count), x,
+                                forces);
   }
 }
 
@@ -277,33 +261,56 @@ void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells
 EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
                                          const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
-  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
   const NormalPart one = pair.normal();
   const auto patches =
       worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one, pair.range));
 
-  const std::size_t first = lists.contacts.size();
-  EnergyLoss loss;
-  if (patches.size() == 1 && pair.contacts.count <= 1 &&
-      is_single_feature(worker.patches.terms(patches.front()))) {
-    loss = advance_alone(pair, patches[0], motion, dt, worker_index);
-  } else {
-    keep_sides(pair, patches, motion.position, worker);
-    find_states(pair, patches, motion, worker);
-    loss = transfer(pair, patches, motion, dt, worker);
-    for (std::size_t j = 0; j < patches.size(); ++j) {
-      const auto terms = worker.patches.terms(patches[j]);
-      loss.dissipated +=
-          add_contact(pair, terms, worker.states[j],
-                      {worker.term_forces.data() + patches[j].first_term, terms.size()},
-                      worker.transferred[j], dt, worker_index);
-    }
+  const std::vector<PatchContact>& contacts = current_.of_worker(worker_index).contacts;
+  const std::size_t first = contacts.size();
+  const bool is_alone = patches.size() == 1 && pair.contacts.count <= 1 &&
+                        is_single_feature(worker.patches.terms(patches.front()));
+  const PatchesOfPair now{pair, patches, worker.patches};
+  const EnergyLoss loss = is_alone ? advance_alone(pair, now, motion, dt, worker_index)
+                                   : advance_patches(pair, now, motion, dt, worker_index);
+  const std::size_t count = contacts.size() - first;
+  pair.contacts = count == 0 ? PatchContacts::Range{}
+                             : PatchContacts::Range{worker_index, static_cast<std::uint32_t>(first),
+                                                    static_cast<std::uint32_t>(count)};
+  return loss;
+}
+
+EnergyLoss SurfaceContacts::advance_patches(const Pair& pair, const PatchesOfPair& now,
+                                            const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  const ContactsOfPair last = previous_.of(pair.contacts);
+  worker.histories.keep_sides(now, last, motion.position);
+  find_states(now, motion, worker);
+  EnergyLoss loss = worker.histories.to_patches(now, last, worker.states, motion, dt);
+  for (std::size_t j = 0; j < now.patches.size(); ++j) {
+    const auto terms = now.finder.terms(now.patches[j]);
+    loss.dissipated +=
+        add_contact(pair, terms, worker.states[j],
+                    {worker.term_forces.data() + now.patches[j].first_term, terms.size()},
+                    worker.histories.of_patch(j), dt, worker_index);
   }
-  const std::size_t count = lists.contacts.size() - first;
-  pair.contacts = count == 0 ? Range{}
-                             : Range{worker_index, static_cast<std::uint32_t>(first),
-                                     static_cast<std::uint32_t>(count)};
+  return loss;
+}
+
+/// One patch of one term that follows at most one contact: the same as the general way.
+EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const PatchesOfPair& now,
+                                          const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  const PatchTerm& term = now.finder.terms(now.patches[0])[0];
+  const NormalPart normal = pair.normal();
+  const PatchState state =
+      single_feature_state(term, normal, pair.node, pair.radius, pair.range, motion);
+  Transferred transferred;
+  EnergyLoss loss = worker.histories.to_single_feature(now, previous_.of(pair.contacts), state,
+                                                       motion, dt, transferred);
+  const PatchTermForce term_force{state.elastic_force, normal.attraction(state.gap), 1.0};
+  loss.dissipated +=
+      add_contact(pair, {&term, 1}, state, {&term_force, 1}, transferred, dt, worker_index);
   return loss;
 }
 
@@ -315,71 +322,33 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
   if (!(state.gap < 0.0) && !AnyLaw::holds(transferred.history))
     return loss_at_end<AnyLaw>(pair.parameters, {transferred.history, state.normal},
                                state.way_in(dt));
-  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  PatchContacts::List& list = current_.of_worker(worker_index);
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
-  const auto first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  const auto first_minimum = static_cast<std::uint32_t>(list.minima.size());
   for (const PatchTerm& term : terms) {
-    if (term.is_minimum) lists.minima.push_back(term.core.feature);
+    if (term.is_minimum) list.minima.push_back(term.core.feature);
   }
   AnyLaw::History next = transferred.history;
   const ContactForce result = AnyLaw::force(pair.parameters, relative, next, dt);
-  lists.contacts.push_back({{next, state.normal},
-                            state.foot,
-                            state.gap,
-                            state.elastic_force,
-                            state.elastic_energy,
-                            transferred.id,
-                            first_minimum,
-                            static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
+  list.contacts.push_back({{next, state.normal},
+                           state.foot,
+                           state.gap,
+                           state.elastic_force,
+                           state.elastic_energy,
+                           transferred.id,
+                           first_minimum,
+                           static_cast<std::uint32_t>(list.minima.size()) - first_minimum});
   write_forces(pair, terms, state, result, term_forces, worker_index);
   return result.dissipated;
 }
 
-/// One patch of one term that follows at most one contact: the same as the general way.
-EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
-                                          const Motion& motion, double dt, int worker_index) {
-  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
-  const PatchTerm& term = worker.patches.terms(patch)[0];
-  const NormalPart normal = pair.normal();
-  const PatchState state =
-      single_feature_state(term, normal, pair.node, pair.radius, pair.range, motion);
-  Transferred transferred;
-  EnergyLoss loss;
-  for (const Contact& old : contacts_of(pair, previous_)) {
-    const Feature* minima =
-        previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
-    const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
-    if (!stays && worker.successors
-                      .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
-                            motion.position, {&patch, 1}, worker.patches)
-                      .empty()) {
-      loss.dissipated = loss_of(pair, old, motion, dt);
-      continue;
-    }
-    worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
-    AnyLaw::accumulate_history(
-        transferred.history,
-        carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
-    transferred.id = old.id;
-    // Where it stays it is turned with its normal: what differs is rounding, and not counted side by
-    // side either.
-    if (!stays)
-      loss.tracking = AnyLaw::history_energy(pair.parameters, old.memory.history) -
-                      AnyLaw::history_energy(pair.parameters, transferred.history);
-  }
-  const PatchTermForce term_force{state.elastic_force, normal.attraction(state.gap), 1.0};
-  loss.dissipated +=
-      add_contact(pair, {&term, 1}, state, {&term_force, 1}, transferred, dt, worker_index);
-  return loss;
-}
-
-void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patches,
-                                  const Motion& motion, Worker& worker) {
+void SurfaceContacts::find_states(const PatchesOfPair& now, const Motion& motion, Worker& worker) {
+  const SphereSurfacePair& pair = now.pair;
   worker.states.clear();
   worker.term_forces.clear();
-  for (const Patch& patch : patches) {
-    const auto terms = worker.patches.terms(patch);
+  for (const Patch& patch : now.patches) {
+    const auto terms = now.finder.terms(patch);
     worker.term_forces.resize(patch.first_term + terms.size());
     const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
                                                 terms.size()};
@@ -400,8 +369,7 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
                                    const PatchState& state, const ContactForce& answer,
                                    std::span<const PatchTermForce> term_forces, int worker) {
   auto& records = records_.of_worker(worker);
-  const auto contact =
-      static_cast<std::uint32_t>(current_[static_cast<std::size_t>(worker)].contacts.size() - 1);
+  const auto contact = static_cast<std::uint32_t>(current_.of_worker(worker).contacts.size() - 1);
   const Vec3 other_force = answer.force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
@@ -415,6 +383,174 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
          static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
         -state.gap / pair.radius);
   }
+}
+
+// What becomes of the contacts where the surface loses some of its elements.
+
+double SurfaceContacts::follow(const geometry::SurfaceChange& change,
+                               std::span<const geometry::CellId> cells, Positions at) {
+  double lost = released_by(change, cells, at);
+  for (Pair& pair : pairs_) {
+    pair.single_face = kNoFace;
+    if (pair.contacts.count > 0) lost += current_.follow(pair.contacts, pair.parameters, change);
+  }
+  // What the last step did where elements are gone is not told any more.
+  records_.keep_if([&](SurfaceForce& record) {
+    const auto now = change.now(record.core.feature);
+    if (now) record.core.feature = *now;
+    return now.has_value();
+  });
+  surface_ = &change.after();
+  watch_ = DeferredPairs(*surface_);
+  workers_.clear();
+  return lost;
+}
+
+/// Elastic energy (J) of normal forces before, minus what it is afterwards, where the nodes are at
+/// a moment. Only pairs with a cell that is gone have changed: a feature in range has all its cells
+/// in the list.
+double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
+                                    std::span<const geometry::CellId> cells, Positions at) const {
+  PatchFinder before(change.before());
+  PatchFinder after(change.after());
+  double released = 0.0;
+  std::vector<geometry::CellId> left;
+  for (const Pair& pair : pairs_) {
+    const auto near = cells.subspan(pair.near.first, pair.near.count);
+    if (std::all_of(near.begin(), near.end(),
+                    [&](geometry::CellId cell) { return change.now(cell).has_value(); }))
+      continue;
+    left.clear();
+    for (const geometry::CellId cell : near) {
+      const auto of_cell = change.left_of(cell);
+      left.insert(left.end(), of_cell.begin(), of_cell.end());
+    }
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    released += normal_energy(pair, before, near, at) - normal_energy(pair, after, left, at);
+  }
+  return released;
+}
+
+// As contacts are reported.
+
+void SurfaceContacts::for_each_record(Positions x, VisitRecord visit) const {
+  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
+    const auto& list = records_.lists()[w];
+    const std::span<const SurfaceForce> records{list.records.data(), list.count};
+    for (std::size_t begin = 0; begin < records.size();) {
+      const std::uint32_t contact = records[begin].contact;
+      std::size_t end = begin + 1;
+      while (end < records.size() && records[end].contact == contact) ++end;
+      const std::uint32_t pair = records[begin].pair;
+      visit(row_of(pairs_[pair], rekey_.key(pair),
+                   current_.of_worker(static_cast<int>(w)).contacts[contact],
+                   records.subspan(begin, end - begin), x));
+      begin = end;
+    }
+  }
+}
+
+// The state.
+
+void SurfaceContacts::exchange(const geometry::StateArchive& archive,
+                               geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  SurfaceContactsState all;
+  if (archive.is_reading())
+    begin_anew(list, pool);
+  else
+    all = state();
+  std::size_t place = 0;
+  all.exchange(archive, *surface_, [&](const geometry::IndexPair& key) {
+    if (!is_listed(key, place)) throw_unlisted_contact();
+    return pairs_[place].parameters.law;
+  });
+  if (archive.is_reading()) take(all);
+}
+
+void SurfaceContacts::take_over(const SurfaceContacts& before, std::span<const std::int32_t> places,
+                                geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  begin_anew(list, pool);
+  SurfaceContactsState all = before.state();
+  for (SurfaceContactsState::Contact& kept : all.contacts)
+    kept.pair.a = places[static_cast<std::size_t>(kept.pair.a)];
+  take(all);
+}
+
+/// Of pairs without contacts.
+void SurfaceContacts::begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  rekey_(
+      pairs_, {}, [](std::size_t, const Pair*) { return Pair{}; }, [](const Pair&) {});
+  list();
+  current_ = {};
+  current_.resize(1);
+  records_.reset(pool.thread_count());
+}
+
+/// @param place  from where on to look for a pair, one after the other in ascending order; where it
+///               is
+bool SurfaceContacts::is_listed(const geometry::IndexPair& key, std::size_t& place) const noexcept {
+  place = next_place(place, pairs_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
+  return place < pairs_.size() && rekey_.key(place) == key;
+}
+
+/// What pairs have: where elements have gone since the last step there may be more in the lists.
+SurfaceContactsState SurfaceContacts::state() const {
+  constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::optional<SurfaceContactsState::Contact>> all(touching());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const PatchContacts::Range& range = pairs_[i].contacts;
+    if (range.count == 0) continue;
+    const ContactsOfPair of_pair = current_.of(range);
+    std::size_t place = current_.count_before(static_cast<std::size_t>(range.worker)) + range.first;
+    for (const PatchContact& contact : of_pair.contacts) {
+      const auto minima = of_pair.minima_of(contact);
+      all[place++] = {rekey_.key(i), contact, {minima.begin(), minima.end()}};
+    }
+  }
+  SurfaceContactsState state{largest_overlap_ratio(), {}, {}};
+  std::vector<std::uint32_t> places;
+  for (std::optional<SurfaceContactsState::Contact>& contact : all) {
+    places.push_back(contact ? static_cast<std::uint32_t>(state.contacts.size()) : kGone);
+    if (contact) state.contacts.push_back(*std::move(contact));
+  }
+  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
+    const auto& list = records_.lists()[w];
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const std::uint32_t place = places[current_.count_before(w) + list.records[i].contact];
+      if (place != kGone) state.forces.push_back({place, list.records[i]});
+    }
+  }
+  return state;
+}
+
+/// Goes on with the contacts whose pairs are listed. @param state  in the order of the list
+void SurfaceContacts::take(const SurfaceContactsState& state) {
+  struct Now {
+    std::size_t pair;
+    std::uint32_t contact;
+  };
+  std::vector<std::optional<Now>> now;  // by contact of the state
+  std::size_t place = 0;
+  for (const SurfaceContactsState::Contact& kept : state.contacts) {
+    now.emplace_back();
+    if (!is_listed(kept.pair, place)) continue;
+    Pair& pair = pairs_[place];
+    require_same_law(kept.contact.memory.history, pair.parameters.law);
+    now.back() = {place, static_cast<std::uint32_t>(current_.size())};
+    current_.append(pair.contacts, kept.contact, kept.minima);
+  }
+  for (const SurfaceContactsState::Force& kept : state.forces) {
+    const std::optional<Now>& of = now[kept.contact];
+    if (!of) continue;
+    SurfaceForce record = kept.record;
+    record.pair = static_cast<std::uint32_t>(of->pair);
+    record.contact = of->contact;
+    record.a = pairs_[of->pair].node;
+    records_.of_worker(0).add(record, state.largest_overlap_ratio);
+  }
+  for (Pair& pair : pairs_)
+    if (pair.contacts.count > 0) pair.single_face = single_face_of(pair);
 }
 
 }  // namespace plekton::contact

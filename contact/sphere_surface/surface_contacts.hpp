@@ -5,14 +5,12 @@
 #include "contact/law/material_pairs.hpp"
 #include "contact/law/pair_springs.hpp"
 #include "contact/sphere_surface/deferred_pairs.hpp"
-#include "contact/sphere_surface/last_side.hpp"
-#include "contact/sphere_surface/normal_part.hpp"
+#include "contact/sphere_surface/history_transfer.hpp"
 #include "contact/sphere_surface/patch.hpp"
+#include "contact/sphere_surface/patch_contacts.hpp"
 #include "contact/sphere_surface/patch_force.hpp"
-#include "contact/sphere_surface/patch_successors.hpp"
 #include "contact/sphere_surface/single_feature_batch.hpp"
-#include "contact/sphere_surface/single_feature_contact.hpp"
-#include "contact/tracking/contact_memory.hpp"
+#include "contact/sphere_surface/sphere_surface_pair.hpp"
 #include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/energy_loss.hpp"
 #include "contact/tracking/force_records.hpp"
@@ -23,9 +21,9 @@
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -33,6 +31,8 @@
 namespace plekton::contact {
 
 using geometry::NearCells;
+
+struct SurfaceContactsState;
 
 /// Contacts of spheres (a) with deformable surfaces (b). A contact belongs to a sphere and a
 /// structure, never to a pair of elements: it lives on a patch (patch.hpp), and follows it over
@@ -76,7 +76,7 @@ class SurfaceContacts {
   std::int64_t pass_throughs() const noexcept;
 
   /// Number of patches in contact.
-  std::size_t touching() const noexcept;
+  std::size_t touching() const noexcept { return current_.size(); }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
@@ -113,7 +113,7 @@ class SurfaceContacts {
                           PatchFinder& finder, geometry::FunctionRef<bool(NodeId)> wants) const;
 
   /// Gives a number after the last one to every contact that has none.
-  void assign_ids(std::int64_t& last);
+  void assign_ids(std::int64_t& last) noexcept { current_.assign_ids(last); }
 
   /// Calls visit(ContactRecord) for every contact of the last step, in the order of the list.
   void for_each_record(Positions x, VisitRecord visit) const;
@@ -129,40 +129,11 @@ class SurfaceContacts {
                  geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
 
  private:
-  /// A contact as it is kept for the next step.
-  struct Contact {
-    ContactMemory<AnyLaw> memory;
-    Vec3 foot;                    ///< m, from the sphere's centre to the representative point
-    double gap;                   ///< m, of the deepest minimum
-    double elastic_force;         ///< N, magnitude of the sum of the normal forces
-    double elastic_energy;        ///< J, of the normal forces
-    std::int64_t id;              ///< 0: none yet
-    std::uint32_t first_minimum;  ///< features of its minima, in Lists::minima
-    std::uint32_t minimum_count;
-  };
-  struct Lists {
-    std::vector<Contact> contacts;
-    std::vector<Feature> minima;
-  };
-  /// Where the contacts of a pair are.
-  struct Range {
-    int worker = 0;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-  struct Pair {
-    double radius;                  ///< m, of the sphere
-    double range;                   ///< m, radius of sphere + radius of surface
-    AnyLaw::Parameters parameters;  ///< without the attraction
-    double attraction;              ///< N, of one contact
-    NodeId node;
-    double reach;  ///< m, the range and the law's reach
+  struct Pair : SphereSurfacePair {
     NearCells near;
-    Range contacts;
+    PatchContacts::Range contacts;
     geometry::FaceId single_face;  ///< whose inside was the only contact in the last step; or none
     DeferredPairs::NextCheck next_check;
-
-    NormalPart normal() const noexcept { return {parameters, attraction}; }
   };
   static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is due, with the cells that may be in range.
@@ -170,40 +141,17 @@ class SurfaceContacts {
     std::size_t pair;
     std::size_t first_cell;  ///< in Worker::cells
     std::size_t cell_count;
-    std::size_t lane;  ///< in Worker::single-feature; kNoLane: to be computed by itself
-  };
-  /// What a contact has from those of the last step.
-  struct Transferred {
-    AnyLaw::History history{};
-    std::int64_t id = 0;
-    double from = -1.0;  ///< N, elastic force of the contact that the id is from
+    std::size_t lane;  ///< in Worker::lone; kNoLane: to be computed by itself
   };
   static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
-  /// A contact in a state.
-  struct KeptContact {
-    std::array<std::int32_t, 2> pair;  ///< sphere and structure
-    Contact contact;
-    std::vector<Feature> minima;
-  };
-  /// What a term of a contact does, in a state.
-  struct KeptForce {
-    std::uint32_t contact;  ///< among all
-    SurfaceForce record;
-  };
-  struct Kept {
-    std::vector<KeptContact> contacts;
-    std::vector<KeptForce> forces;
-  };
   struct Worker {
-    explicit Worker(const geometry::Surface& surface) : patches(surface), successors(surface) {}
+    explicit Worker(const geometry::Surface& surface) : patches(surface), histories(surface) {}
     PatchFinder patches;
-    PatchSuccessors successors;
+    HistoryTransfer histories;
     std::vector<Job> jobs;
     std::vector<geometry::CellId> cells;  ///< of the jobs
     std::vector<PatchState> states;
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
-    std::vector<Transferred> transferred;     ///< by patch
-    std::int64_t pass_throughs = 0;           ///< in this step
     /// Pairs of a sphere with the inside of one facet, as far as one can tell beforehand.
     SingleFeatureBatch lone;
     std::array<geometry::FaceId, kSingleFeatureLanes> single_faces;
@@ -216,51 +164,33 @@ class SurfaceContacts {
                              Worker& worker);
   void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
   double keep_single_feature(Pair& pair, std::size_t lane, int worker);
-  geometry::FaceId single_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
+  geometry::FaceId single_face_of(const Pair& pair) const noexcept;
   EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
                           double dt, int worker);
-  EnergyLoss advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
-                           int worker);
-  /// J, of a contact that nothing follows.
-  double loss_of(const Pair& pair, const Contact& old, const Motion& motion, double dt) const;
+  EnergyLoss advance_alone(const Pair& pair, const PatchesOfPair& now, const Motion& motion,
+                           double dt, int worker);
+  EnergyLoss advance_patches(const Pair& pair, const PatchesOfPair& now, const Motion& motion,
+                             double dt, int worker);
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                      std::span<const PatchTermForce> term_forces, const Transferred& transferred,
                      double dt, int worker);
-  void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
-  void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
-                   Worker& worker);
-  EnergyLoss transfer(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
-                      double dt, Worker& worker);
+  static void find_states(const PatchesOfPair& now, const Motion& motion, Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                     const ContactForce& answer, std::span<const PatchTermForce> term_forces,
                     int worker);
-  static void hand_on_number(const Contact& old, std::span<const std::uint32_t> successors,
-                             Worker& worker);
   double drop(const Pair& pair) const;
-  ContactRecord row_of(std::span<const SurfaceForce> records, const Contact& contact,
-                       Positions x) const;
   double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
                      Positions at) const;
-  static double normal_energy(const Pair& pair, PatchFinder& finder,
-                              std::span<const geometry::CellId> cells, Positions x);
-  double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
   void begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
-  void find_single_faces();
-  Kept kept() const;
-  std::size_t exchange_contact(geometry::RowFields& row, KeptContact& kept, std::size_t from) const;
-  void keep(const KeptContact& kept, std::size_t place);
-  std::uint32_t first_contact(std::size_t worker) const noexcept;
-  std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
-    return {
-        lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,
-        pair.contacts.count};
-  }
+  bool is_listed(const geometry::IndexPair& key, std::size_t& place) const noexcept;
+  SurfaceContactsState state() const;
+  void take(const SurfaceContactsState& state);
 
   const geometry::Surface* surface_;
   std::vector<Pair> pairs_;
   DeferredPairs watch_;
-  std::vector<Lists> current_;   ///< by worker
-  std::vector<Lists> previous_;  ///< by worker
+  PatchContacts current_;
+  PatchContacts previous_;  ///< of the step before
   std::vector<Worker> workers_;
   ForceRecords<SurfaceForce> records_;
   Rekey<Pair> rekey_;

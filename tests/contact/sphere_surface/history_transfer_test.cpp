@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_surface/history_transfer.hpp"
+
 #include "tests/support/ball_on_surface.hpp"
 
 #include <gtest/gtest.h>
 
 /// The tangential spring of a contact follows the ball, whatever elements it crosses.
-namespace plekton::test::surface_history_test {
+namespace plekton::test::history_transfer_test {
 namespace {
 
 /// No sliding within the tests below.
@@ -217,5 +219,141 @@ TEST(Ball, FeelsTheSameWhateverTheOrderInWhichTheSurfaceWasCreated) {
   }
 }
 
+/// Two faces of a valley below a ball, and a contact of the last step.
+struct Valley {
+  static constexpr double kSpring = 1e6;  // N/m, along the normal; half of it across
+  Complex complex = valley(0.35);
+  Surface surface{complex.cylinders, complex.facets, complex.x.size() + 1};
+  std::vector<Vec3> still = std::vector<Vec3>(complex.x.size() + 1, Vec3::Zero());
+  PatchFinder finder{surface};
+  HistoryTransfer transfer{surface};
+  SphereSurfacePair pair{0.9, 1.0, {}, 0.0, id_at<NodeId>(complex.x.size()), 1.0};
+  const Vec3 slip{0.0, 0.002, 0.0};  // m
+  std::vector<PatchContact> last;
+  std::vector<Feature> minima;
+
+  explicit Valley(const Vec3& centre) {
+    complex.x.push_back(centre);
+    // Bodies as large as 1 m: E R is the spring.
+    pair.parameters = MaterialPairs({{kSpring, 0.5, 1e3}})
+                          .combine(BodyPart{MaterialId{0}, 1.0}, BodyPart{MaterialId{0}, 1.0});
+  }
+
+  void add_last(std::int64_t id, double elastic_force, const std::vector<Feature>& on) {
+    ContactMemory<AnyLaw> memory;
+    memory.history.keep(*pair.parameters.law, LinearFrictional::History{slip});
+    memory.normal = -Vec3::UnitZ();
+    last.push_back({memory, Vec3(0, 0, -1), -0.01, elastic_force, 0.0, id,
+                    static_cast<std::uint32_t>(minima.size()),
+                    static_cast<std::uint32_t>(on.size())});
+    minima.insert(minima.end(), on.begin(), on.end());
+  }
+
+  PatchesOfPair now() {
+    return {pair, finder.find(complex.x.back(), 1.0, all_cells(surface), complex.x), finder};
+  }
+  ContactsOfPair before() const { return {last, minima.data()}; }
+  Motion motion() const { return {complex.x, still, still}; }
+  /// J, of one spring with all of the slip.
+  double energy() const { return 0.5 * 0.5 * kSpring * slip.squaredNorm(); }
+};
+
+/// That pushes with a force (N), along the last normal.
+PatchState pushing(double elastic_force) {
+  PatchState state;
+  state.normal = -Vec3::UnitZ();
+  state.gap = -0.01;
+  state.elastic_force = elastic_force;
+  return state;
+}
+
+Vec3 slip_of(const Transferred& transferred) {
+  return transferred.history.as<LinearFrictional::History>().elastic_slip;
+}
+
+TEST(HistoryTransfer, SharesASlipByForceAndGivesTheNumberToTheLargest) {
+  Valley valley(Vec3(0.01, 0, 1.0005));
+  valley.add_last(7, 4.0, {Feature(FaceId{0}), Feature(FaceId{1})});
+  const std::vector<PatchState> states{pushing(1.0), pushing(3.0)};
+  const auto now = valley.now();
+  ASSERT_EQ(now.patches.size(), 2u);
+
+  const auto loss = valley.transfer.to_patches(now, valley.before(), states, valley.motion(), 1e-3);
+
+  EXPECT_NEAR((slip_of(valley.transfer.of_patch(0)) - 0.25 * valley.slip).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((slip_of(valley.transfer.of_patch(1)) - 0.75 * valley.slip).norm(), 0.0, 1e-15);
+  EXPECT_EQ(valley.transfer.of_patch(0).id, 0);
+  EXPECT_EQ(valley.transfer.of_patch(1).id, 7);
+  EXPECT_EQ(loss.dissipated, 0.0);
+  EXPECT_NEAR(loss.tracking, (1.0 - 0.0625 - 0.5625) * valley.energy(), 1e-12 * valley.energy());
+}
+
+TEST(HistoryTransfer, KeepsTheNumberOfTheLargestOfContactsThatMerge) {
+  Valley valley(Vec3(0.01, 0, 0.9995));
+  valley.add_last(3, 1.0, {Feature(FaceId{0})});
+  valley.add_last(4, 2.0, {Feature(FaceId{1})});
+  const auto now = valley.now();
+  ASSERT_EQ(now.patches.size(), 1u);
+
+  valley.transfer.to_patches(now, valley.before(), std::vector{pushing(3.0)}, valley.motion(),
+                             1e-3);
+
+  EXPECT_EQ(valley.transfer.of_patch(0).id, 4);
+  EXPECT_NEAR((slip_of(valley.transfer.of_patch(0)) - 2.0 * valley.slip).norm(), 0.0, 1e-15);
+}
+
+TEST(HistoryTransfer, DissipatesWhatNothingFollows) {
+  Valley valley(Vec3(0, 0, 3.0));
+  valley.add_last(1, 1.0, {Feature(FaceId{0})});
+  const auto now = valley.now();
+  ASSERT_TRUE(now.patches.empty());
+
+  const auto loss = valley.transfer.to_patches(now, valley.before(), {}, valley.motion(), 1e-3);
+
+  EXPECT_NEAR(loss.dissipated, valley.energy(), 1e-12 * valley.energy());
+  EXPECT_EQ(loss.tracking, 0.0);
+}
+
+TEST(HistoryTransfer, GivesASingleFeatureWhatTheGeneralWayGivesToTheLastBit) {
+  // The ball is over the one face, and its contact was on the other one.
+  Valley valley(Vec3(2.0, 0, 1.7));
+  valley.add_last(5, 1.0, {Feature(FaceId{1})});
+  const auto now = valley.now();
+  ASSERT_EQ(now.patches.size(), 1u);
+  ASSERT_EQ(now.patches[0].root, Feature(FaceId{0}));
+  PatchState state = pushing(1.0);
+  state.normal = Vec3(0.1, 0.2, -1.0).normalized();
+  state.twist_rate = 3.0;
+
+  const auto loss =
+      valley.transfer.to_patches(now, valley.before(), std::vector{state}, valley.motion(), 1e-3);
+  Transferred alone;
+  const auto loss_alone =
+      valley.transfer.to_single_feature(now, valley.before(), state, valley.motion(), 1e-3, alone);
+
+  EXPECT_EQ(alone.id, 5);
+  EXPECT_EQ(alone.id, valley.transfer.of_patch(0).id);
+  EXPECT_EQ(alone.history.numbers, valley.transfer.of_patch(0).history.numbers);
+  EXPECT_EQ(loss_alone.tracking, loss.tracking);
+  EXPECT_EQ(loss_alone.dissipated, loss.dissipated);
+}
+
+TEST(HistoryTransfer, CountsContactsThatGoOnWithTheOppositeNormal) {
+  Valley valley(Vec3(0.01, 0, 0.9995));
+  valley.add_last(3, 1.0, {Feature(FaceId{0})});
+  PatchState turned = pushing(1.0);
+  turned.normal = Vec3::UnitZ();
+  const auto now = valley.now();
+
+  valley.transfer.begin_step();
+  valley.transfer.to_patches(now, valley.before(), std::vector{pushing(1.0)}, valley.motion(),
+                             1e-3);
+  EXPECT_EQ(valley.transfer.pass_throughs(), 0);
+  valley.transfer.to_patches(now, valley.before(), std::vector{turned}, valley.motion(), 1e-3);
+  EXPECT_EQ(valley.transfer.pass_throughs(), 1);
+  valley.transfer.begin_step();
+  EXPECT_EQ(valley.transfer.pass_throughs(), 0);
+}
+
 }  // namespace
-}  // namespace plekton::test::surface_history_test
+}  // namespace plekton::test::history_transfer_test
