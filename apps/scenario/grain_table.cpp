@@ -22,7 +22,7 @@ constexpr std::size_t kColumns = 4;
 constexpr std::array<std::string_view, kColumns> kNames = {"x", "y", "z", "r"};
 constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
 
-std::string_view trimmed(std::string_view text) {
+std::string_view bare(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\"";
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
@@ -33,7 +33,7 @@ std::vector<std::string_view> cells_of(std::string_view row) {
   std::vector<std::string_view> cells;
   while (true) {
     const std::size_t comma = row.find(',');
-    cells.push_back(trimmed(row.substr(0, comma)));
+    cells.push_back(bare(row.substr(0, comma)));
     if (comma == std::string_view::npos) return cells;
     row.remove_prefix(comma + 1);
   }
@@ -65,7 +65,7 @@ Columns columns_of(const std::vector<std::string_view>& head, const std::string&
   Columns columns;
   for (std::size_t place = 0; place < head.size(); ++place) {
     const std::size_t bracket = head[place].find('(');
-    std::string_view name = trimmed(head[place].substr(0, bracket));
+    std::string_view name = bare(head[place].substr(0, bracket));
     if (name == "radius") name = "r";
     for (std::size_t k = 0; k < kColumns; ++k) {
       if (name != kNames[k]) continue;
@@ -122,7 +122,7 @@ GrainTable parse_grain_table(std::string_view text, const std::string& source) {
     const std::size_t end = text.find('\n');
     const std::string_view row = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (trimmed(row).empty() || trimmed(row)[0] == '#') continue;
+    if (bare(row).empty() || bare(row)[0] == '#') continue;
     const std::string where = fmt::format("{}: row {}", source, line);
     const std::vector<std::string_view> cells = cells_of(row);
     if (!columns && !number_in(cells[0])) {

@@ -12,7 +12,7 @@ namespace plekton::dynamics {
 namespace {
 
 /// Slopes of points that were rounded may differ by this much where they are meant to be equal.
-constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+constexpr double kSlopeRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// @returns whether the point follows the one before
 bool list_order(const WireCurve::Point& before, const WireCurve::Point& point,
@@ -78,7 +78,7 @@ void list_problems(const WireCurve& curve, std::string_view name, std::ostream& 
       return;
     }
     const double slope = (point.force - before.force) / (point.strain - before.strain);
-    if (slope > curve.first_slope() * (1.0 + kRounding)) {
+    if (slope > curve.first_slope() * (1.0 + kSlopeRounding)) {
       problems << where << ": the piece before it is steeper (" << slope
                << " N for each unit of strain) than the first (" << curve.first_slope()
                << "), along which the wire unloads: it would give back more work than it took; "
