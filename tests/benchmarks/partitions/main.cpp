@@ -33,9 +33,10 @@ using geometry::Vec3;
 constexpr std::uint64_t kSumBytes = 48;     // of a ghost of a block, to its owner
 constexpr std::uint64_t kMotionBytes = 72;  // of a private sphere, to a rank that has it as a ghost
 constexpr std::uint64_t kForceBytes = 48;   // of a common sphere, to all ranks
-constexpr std::uint64_t kNodeBytes = 152;   // of a private sphere, to all ranks where all look
+constexpr std::uint64_t kNodeBytes = 152;   // of a private sphere, to all ranks at a new list
+constexpr std::uint64_t kPairBytes = 8;     // of a pair found, likewise
 constexpr std::uint64_t kTotalBytes = sizeof(contact::BlockTotals) + sizeof(dynamics::StepSums);
-constexpr int kStepsBetweenLooks = 16;
+constexpr int kStepsBetweenLists = 100;  // as in the bed of docs/howto/many_ranks.md
 constexpr std::array kParts = {2, 8, 64, 256, 512, 4096};
 
 /// What a part sends to another one in a step.
@@ -83,12 +84,19 @@ double mean(const std::vector<Part>& parts, const Of& of) {
 
 void print_head(const char* things) {
   std::printf("%6s %11s %8s %8s %7s %10s %10s %10s %10s %10s %9s\n", "parts", things, "ghosts",
-              "most", "share", "kB sent", "kB taken", "neighbours", "kB to all", "kB looks",
+              "most", "share", "kB sent", "kB taken", "neighbours", "kB to all", "kB lists",
               "imbalance");
 }
 
-/// @param private_things  that are told to all where all look
-void print_row(const std::vector<Part>& parts, std::uint64_t private_things) {
+/// What all parts tell all at a new list, in bytes.
+double list_bytes(const std::vector<Part>& parts, std::uint64_t private_things) {
+  double pairs = 0.0;
+  for (const Part& part : parts) pairs += static_cast<double>(part.work());
+  return kNodeBytes * static_cast<double>(private_things) + kPairBytes * pairs;
+}
+
+/// @param bytes_of_list  that are told to all at a new list
+void print_row(const std::vector<Part>& parts, double bytes_of_list) {
   const auto ghosts = [](const Part& part) { return part.ghosts; };
   const auto things = [](const Part& part) { return part.things; };
   const auto work = [](const Part& part) { return part.work(); };
@@ -101,7 +109,7 @@ void print_row(const std::vector<Part>& parts, std::uint64_t private_things) {
               1e-3 * most(parts, [](const Part& part) { return part.bytes_sent; }),
               1e-3 * most(parts, [](const Part& part) { return part.bytes_received; }),
               most(parts, [](const Part& part) { return part.sent.size(); }), 1e-3 * to_all,
-              1e-3 * kNodeBytes * static_cast<double>(private_things) / kStepsBetweenLooks,
+              1e-3 * bytes_of_list / kStepsBetweenLists,
               100.0 * (most(parts, work) / mean(parts, work) - 1.0));
 }
 
@@ -199,11 +207,11 @@ std::vector<Part> parts_of(const BlockedBed& bed, int count) {
 }
 
 /// For simulate.py: a line of the whole, then one of each part.
-void write(const std::vector<Part>& parts, std::uint64_t private_spheres,
+void write(const std::vector<Part>& parts, double bytes_of_list,
            const std::filesystem::path& path) {
   std::ofstream file(path);
-  file << parts.size() << ' ' << private_spheres << ' ' << kForceBytes << ' ' << kTotalBytes << ' '
-       << kNodeBytes << ' ' << kStepsBetweenLooks << '\n';
+  file << parts.size() << ' ' << kForceBytes << ' ' << kTotalBytes << ' ' << bytes_of_list << ' '
+       << kStepsBetweenLists << '\n';
   for (const Part& part : parts) {
     file << part.things << ' ' << part.common << ' ' << part.border_work << ' ' << part.inner_work
          << ' ' << part.sent.size();
@@ -222,9 +230,9 @@ void count_bed(std::size_t about, const std::filesystem::path& folder) {
   print_head("spheres");
   for (const int count : kParts) {
     const std::vector<Part> parts = parts_of(bed, count);
-    print_row(parts, bed.spheres - common);
-    if (!folder.empty())
-      write(parts, bed.spheres - common, folder / (std::to_string(count) + ".txt"));
+    const double bytes = list_bytes(parts, bed.spheres - common);
+    print_row(parts, bytes);
+    if (!folder.empty()) write(parts, bytes, folder / (std::to_string(count) + ".txt"));
   }
 }
 
@@ -265,7 +273,7 @@ void count_sheet(std::size_t about) {
       }
     }
     add_up_messages(parts);
-    print_row(parts, 0);
+    print_row(parts, 0.0);
   }
 }
 

@@ -42,8 +42,7 @@ struct Parts {
   explicit Parts(const char* path) {
     std::ifstream file(path);
     std::size_t count = 0;
-    file >> count >> private_spheres >> force_bytes >> total_bytes >> node_bytes >>
-        steps_between_looks;
+    file >> count >> force_bytes >> total_bytes >> list_bytes >> steps_between_lists;
     of_ranks.resize(count);
     for (std::size_t rank = 0; rank < count; ++rank) {
       Part& part = of_ranks[rank];
@@ -65,8 +64,8 @@ struct Parts {
   double time_of_one() const { return spheres * (kPairsTime + kListTime) + common * kCommonTime; }
 
   std::vector<Part> of_ranks;
-  double private_spheres = 0, force_bytes = 0, total_bytes = 0, node_bytes = 0;
-  double steps_between_looks = 1;
+  double force_bytes = 0, total_bytes = 0, list_bytes = 0;
+  double steps_between_lists = 1;
   double spheres = 0, common = 0, work = 0;
   bool is_read = false;
 };
@@ -119,14 +118,14 @@ class Rank {
   }
 
  private:
-  /// Forces on all common spheres go to all; where all are looked at, private ones too: 1.5 GB for
+  /// Forces on all common spheres go to all; at a new list private spheres and pairs too: 2 GB for
   /// ten million spheres, which is taken to come as fast as a link can bring it.
   void gather() {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Allgatherv(sent_, counts_[static_cast<std::size_t>(rank)], MPI_CHAR, room_, counts_.data(),
                    places_.data(), MPI_CHAR, MPI_COMM_WORLD);
-    compute(parts_.private_spheres * parts_.node_bytes / (parts_.steps_between_looks * kBandwidth));
+    compute(parts_.list_bytes / (parts_.steps_between_lists * kBandwidth));
   }
 
   void begin_exchange(int Message::*size) {
