@@ -538,10 +538,11 @@ void Simulation::follow_breaks() {
   const bool are_whole = yielding_bonds_.broken().empty() && sheet_facets_.broken().empty();
   if (asked_breaks_.empty() && are_whole) return;
   loads_.follow(bonds_, sheet_facets_);
-  const BrokenParts broken = asked_breaks_.with(yielding_bonds_, sheet_facets_);
+  if (surface_.cell_count() > 0) {
+    const BrokenParts broken = asked_breaks_.with(yielding_bonds_, sheet_facets_);
+    if (take_out_broken(scene_, broken, bonds_, sheet_facets_)) follow_surface();
+  }
   asked_breaks_.clear();
-  if (surface_.cell_count() > 0 && take_out_broken(scene_, broken, bonds_, sheet_facets_))
-    follow_surface();
 }
 
 /// The scene's elements have become fewer. Elastic energies of contacts before and after are
