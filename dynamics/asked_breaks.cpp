@@ -7,6 +7,7 @@
 #include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -70,13 +71,10 @@ void AskedBreaks::break_all(BeamBonds& bonds, SheetFacets& sheets, const NodeSta
   }
 }
 
-BrokenParts AskedBreaks::with(const YieldingBonds& yielding_bonds,
-                              const SheetFacets& sheets) const {
-  BrokenParts all = parts_;
+void AskedBreaks::add_broken(const YieldingBonds& yielding_bonds, const SheetFacets& sheets) {
   const std::span<const std::size_t> yielded = yielding_bonds.broken();
-  all.bonds.insert(all.bonds.end(), yielded.begin(), yielded.end());
-  for (const std::size_t facet : sheets.broken()) all.facets.push_back(sheets.nodes(facet));
-  return all;
+  parts_.bonds.insert(parts_.bonds.end(), yielded.begin(), yielded.end());
+  for (const std::size_t facet : sheets.broken()) parts_.facets.push_back(sheets.nodes(facet));
 }
 
 void AskedBreaks::exchange(const geometry::StateArchive& archive, std::size_t bond_count,

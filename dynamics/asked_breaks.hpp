@@ -29,9 +29,9 @@ class AskedBreaks {
   void break_all(BeamBonds& bonds, SheetFacets& sheets, const NodeState& state, double drift,
                  EnergyLedger& ledger) const;
 
-  /// What has been asked for and what broke by itself in the last advance, since it was too much.
-  BrokenParts with(const YieldingBonds& yielding_bonds, const SheetFacets& sheets) const;
-
+  /// Adds what broke by itself in the last advance, since it was too much.
+  void add_broken(const YieldingBonds& yielding_bonds, const SheetFacets& sheets);
+  const BrokenParts& parts() const noexcept { return parts_; }
   void clear() noexcept { parts_.clear(); }
   bool empty() const noexcept { return parts_.empty(); }
 

@@ -9,6 +9,7 @@
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/contacts_then.hpp"
 #include "dynamics/measures/fault_finder.hpp"
+#include "dynamics/measures/mean_carried.hpp"
 #include "dynamics/measures/plane_forces.hpp"
 #include "dynamics/measures/rounding_energy.hpp"
 #include "dynamics/measures/section_force.hpp"
@@ -196,12 +197,12 @@ void Simulation::set_pressure(std::size_t load, double pressure) {
 
 void Simulation::set_servo(std::size_t load, double force, double pressure) {
   driven_planes_.set_target(load, force, pressure);
-  scene_.loads.servos = driven_planes_.servos();
+  scene_.loads.servos[load] = driven_planes_.servos()[load];
 }
 
 void Simulation::set_body_servo(std::size_t load, double target, double pressure) {
   driven_bodies_.set_target(load, target, pressure);
-  scene_.loads.body_servos = driven_bodies_.servos();
+  scene_.loads.body_servos[load] = driven_bodies_.servos()[load];
 }
 
 void Simulation::set_plane_velocity(std::size_t plane, const Vec3& velocity) {
@@ -539,8 +540,8 @@ void Simulation::follow_breaks() {
   if (asked_breaks_.empty() && are_whole) return;
   loads_.follow(bonds_, sheet_facets_);
   if (surface_.cell_count() > 0) {
-    const BrokenParts broken = asked_breaks_.with(yielding_bonds_, sheet_facets_);
-    if (take_out_broken(scene_, broken, bonds_, sheet_facets_)) follow_surface();
+    asked_breaks_.add_broken(yielding_bonds_, sheet_facets_);
+    if (take_out_broken(scene_, asked_breaks_.parts(), bonds_, sheet_facets_)) follow_surface();
   }
   asked_breaks_.clear();
 }

@@ -28,6 +28,7 @@
 #include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/time_step/motion_step.hpp"
 #include "dynamics/time_step/step_cause.hpp"
+#include "geometry/base/function_ref.hpp"
 #include "geometry/base/state_tree.hpp"
 
 #include <array>
@@ -37,7 +38,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace plekton::dynamics {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/base/rotation.hpp"
 #include "contact/sphere_surface/patch.hpp"
 #include "contact/sphere_surface/patch_contacts.hpp"
 #include "contact/sphere_surface/patch_force.hpp"

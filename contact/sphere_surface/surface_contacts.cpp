@@ -162,8 +162,8 @@ bool SurfaceContacts::may_be_single_feature(Pair& pair, const Motion& motion, Jo
 /// is not written for contacts side by side.
 geometry::FaceId SurfaceContacts::single_face_of(const Pair& pair) const noexcept {
   if (pair.contacts.count != 1 || !pair.parameters.law->advance_single_feature) return kNoFace;
-  const ContactsOfPair last = current_.of(pair.contacts);
-  const auto minima = last.minima_of(last.contacts[0]);
+  const ContactsOfPair now = current_.of(pair.contacts);
+  const auto minima = now.minima_of(now.contacts[0]);
   if (minima.size() != 1) return kNoFace;
   const Feature minimum = minima[0];
   return minimum.kind == geometry::FeatureKind::face ? geometry::FaceId{minimum.id} : kNoFace;

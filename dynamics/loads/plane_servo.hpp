@@ -5,7 +5,6 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/model/loads.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

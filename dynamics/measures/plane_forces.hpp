@@ -6,9 +6,8 @@
 #include "dynamics/measures/force_and_moment.hpp"
 
 #include <span>
-#include <vector>
 
-/// What bodies do to planes, in the last step of their contacts.
+/// What bodies do to planes, or would.
 namespace plekton::dynamics {
 
 /// What acts on one plane.

@@ -5,7 +5,9 @@
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 /// What of a scene changes as it moves, written to a state or read from one.
 namespace plekton::dynamics {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-/// What a simulation has to know of its scene before the first step, whatever its contact law.
+/// What follows from a scene, whatever its contact law.
 namespace plekton::dynamics {
 
 /// m, by node: what it may move in one step before nothing could notice it any more. A sphere its

@@ -94,7 +94,7 @@ struct HeldBody {
 /// last drift to the middle of the next one. The momentum about the free axes stays, in a drift and
 /// where the hold takes another spin; the inertia about them and the part that the held spin has of
 /// that momentum do not. Of the work of a step the ledger counts what is done before the moment of
-/// the forces by the lengths of the drifts (Simulation::account), and the kinetic energy goes with
+/// the forces by the lengths of the drifts (EnergyLedger::book), and the kinetic energy goes with
 /// it.
 /// @param before, after  the kick
 StepWork work_of_hold(const HeldBody& before, const HeldBody& after, const StepLengths& lengths) {

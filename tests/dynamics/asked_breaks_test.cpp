@@ -49,13 +49,12 @@ TEST(AskedBreaks, BreakABondForWhatItStored) {
   Scene scene = beam_and_facet();
   BeamBonds bonds(scene.bonds, scene.state.size());
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  const YieldingBonds yielding({}, scene.bonds);
   geometry::ThreadPool pool(1);
   scene.state.position[1].x() = 1.001;
   bonds.advance(scene.state, pool);
   AskedBreaks breaks;
   breaks.ask_bond(0, bonds.size());
-  EXPECT_THAT(breaks.with(yielding, sheets).bonds, ElementsAre(0u));
+  EXPECT_THAT(breaks.parts().bonds, ElementsAre(0u));
   EnergyLedger ledger;
   breaks.break_all(bonds, sheets, scene.state, 0.0, ledger);
   EXPECT_TRUE(bonds.is_broken(0));
@@ -66,12 +65,10 @@ TEST(AskedBreaks, BreakABondForWhatItStored) {
 
 TEST(AskedBreaks, TakeACylinderWithTheBondsBetweenItsNodesEitherWayRound) {
   const Scene scene = beam_and_facet();
-  const SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  const YieldingBonds yielding({}, scene.bonds);
   AskedBreaks breaks;
   breaks.ask_cylinder(NodeId{1}, NodeId{0}, scene);
   breaks.ask_facet({NodeId{2}, NodeId{0}, NodeId{1}}, scene);
-  const BrokenParts parts = breaks.with(yielding, sheets);
+  const BrokenParts& parts = breaks.parts();
   EXPECT_THAT(parts.bonds, ElementsAre(0u));
   EXPECT_THAT(parts.cylinders, ElementsAre(std::array{NodeId{0}, NodeId{1}}));
   EXPECT_THAT(parts.facets, ElementsAre(std::array{NodeId{0}, NodeId{1}, NodeId{2}}));
