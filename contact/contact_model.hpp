@@ -35,4 +35,7 @@ struct ContactScene {
 /// contact/models.hpp has them: of laws that come with the library, and of one's own.
 using ContactModel = std::function<std::unique_ptr<Contacts>(ContactScene)>;
 
+/// LinearFrictional between all pairs, by what their materials say: the usual one.
+ContactModel linear_frictional();
+
 }  // namespace plekton::contact

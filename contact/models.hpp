@@ -14,7 +14,7 @@ namespace plekton::contact {
 
 /// LinearFrictional between all pairs.
 /// @param properties  of pairs of materials that say more than their materials do
-ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties = {});
+ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties);
 
 /// For each pair of materials any law, also of one's own.
 /// @param properties  by pair of materials; AnyLaw::of<Law>() and with_parts<Law>() make them

@@ -4,6 +4,8 @@
 #include "dynamics/measures/energy_ledger.hpp"
 #include "dynamics/model/exchange_scene.hpp"
 #include "dynamics/model/require_index.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 #include "dynamics/broken_elements.hpp"
 
 #include "dynamics/model/erase_elements.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "dynamics/model/scene.hpp"
-#include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace plekton::dynamics {
+
+class SheetFacets;
 
 /// What broke in a step.
 struct BrokenParts {

@@ -22,6 +22,7 @@
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/model/scene_hash.hpp"
 #include "dynamics/scene_check.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 #include "geometry/base/state_archive.hpp"
@@ -62,7 +63,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
       rigid_nodes_(scene_.rigid_bodies, scene_.state, scene_.properties),
       rigid_bodies_(scene_.rigid_bodies, scene_.state),
       contacts_(model(contact_scene(scene_, surface_, options.skin, options.self_contact))),
-      bonds_(scene_.bonds, scene_.state.size()),
+      bonds_(std::make_unique<BeamBonds>(scene_.bonds, scene_.state.size())),
       yielding_bonds_(scene_.bond_laws, scene_.bonds),
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
       ties_(scene_),
@@ -88,27 +89,27 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   limits_ = std::make_unique<StepLimits>(resistance());
   if (options.time_step == 0.0) chooser_ = std::make_unique<StepChooser>(resistance(), *limits_);
   // The first look at the contacts: histories are empty, so nothing is changed by it.
-  yielding_bonds_.advance(bonds_, scene_.state, 0.0, pool_);
+  yielding_bonds_.advance(*bonds_, scene_.state, 0.0, pool_);
   yielding_bonds_.forget_dissipated();
   sheet_facets_.advance(scene_.state, 0.0, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   sheet_facets_.forget_dissipated();
   follow_breaks();
-  bonds_.advance(scene_.state, pool_);
+  bonds_->advance(scene_.state, pool_);
   ties_.advance(scene_.state.position);
   ties_.forget_dissipated();
   contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   // The first step is chosen for what the forces do to all nodes, also those of other ranks.
   nodes_.found_forces();
   nodes_.know_all();
-  bonds_.add_forces(forces_, pool_);
+  bonds_->add_forces(forces_, pool_);
   ties_.add_forces(forces_);
   sheet_facets_.add_forces(forces_, pool_);
   set_first_step(options.time_step);
   forces_.set_zero();
   initial_moment_ = free_moment(0.0);
   const double kinetic = moving_energy();
-  ledger_.start(kinetic, kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
+  ledger_.start(kinetic, kinetic + contacts_->elastic_energy() + bonds_->elastic_energy() +
                              ties_.elastic_energy() + sheet_facets_.elastic_energy());
 }
 
@@ -218,7 +219,7 @@ double Simulation::motion_ratio() const {
 }
 
 Resistance Simulation::resistance() const noexcept {
-  return {scene_,        surface_, *contacts_, bonds_,      yielding_bonds_,
+  return {scene_,        surface_, *contacts_, *bonds_,     yielding_bonds_,
           sheet_facets_, ties_,    loads_,     rigid_nodes_};
 }
 
@@ -272,7 +273,7 @@ Energy Simulation::energy() const {
   nodes_.know_all();
   Energy energy = ledger_.energy();
   energy.contact_elastic = contacts_->elastic_energy();
-  energy.bond_elastic = bonds_.elastic_energy() + ties_.elastic_energy();
+  energy.bond_elastic = bonds_->elastic_energy() + ties_.elastic_energy();
   energy.sheet_elastic = sheet_facets_.elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the
   // positions.
@@ -317,16 +318,16 @@ void Simulation::choose_step() {
 /// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
-  asked_breaks_.break_all(bonds_, sheet_facets_, scene_.state, last_drift_, ledger_);
-  yielding_bonds_.advance(bonds_, scene_.state, last_drift_, pool_);
+  asked_breaks_.break_all(*bonds_, sheet_facets_, scene_.state, last_drift_, ledger_);
+  yielding_bonds_.advance(*bonds_, scene_.state, last_drift_, pool_);
   sheet_facets_.advance(scene_.state, last_drift_, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
   find_contacts();
   if (chooser_ != nullptr && chooser_->is_due(steps_, dt_, fastest_spin_)) choose_step();
   drift_ = std::min(dt_, longest);
-  bonds_.advance(scene_.state, pool_);
-  bonds_.add_forces(forces_, pool_);
+  bonds_->advance(scene_.state, pool_);
+  bonds_->add_forces(forces_, pool_);
   ties_.advance(scene_.state.position);
   ties_.add_forces(forces_);
   sheet_facets_.add_forces(forces_, pool_);
@@ -414,7 +415,7 @@ void Simulation::watch_momentum() {
   constexpr std::int64_t kLooks = 32;
   double carried = 0.0;
   if (steps_ % (kLooks * MomentumBalance::kStepsBetweenLooks) == 0) {
-    const double elastic = std::abs(contacts_->elastic_energy()) + bonds_.elastic_energy() +
+    const double elastic = std::abs(contacts_->elastic_energy()) + bonds_->elastic_energy() +
                            sheet_facets_.elastic_energy() + ties_.elastic_energy();
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
@@ -521,7 +522,7 @@ Vec3 Simulation::free_moment(double before) const {
 // What breaks.
 
 void Simulation::break_bond(std::size_t bond) {
-  asked_breaks_.ask_bond(bond, bonds_.size());
+  asked_breaks_.ask_bond(bond, bonds_->size());
 }
 
 void Simulation::break_cylinder(NodeId a, NodeId b) {
@@ -538,10 +539,10 @@ void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
 void Simulation::follow_breaks() {
   const bool are_whole = yielding_bonds_.broken().empty() && sheet_facets_.broken().empty();
   if (asked_breaks_.empty() && are_whole) return;
-  loads_.follow(bonds_, sheet_facets_);
+  loads_.follow(*bonds_, sheet_facets_);
   if (surface_.cell_count() > 0) {
     asked_breaks_.add_broken(yielding_bonds_, sheet_facets_);
-    if (take_out_broken(scene_, asked_breaks_.parts(), bonds_, sheet_facets_)) follow_surface();
+    if (take_out_broken(scene_, asked_breaks_.parts(), *bonds_, sheet_facets_)) follow_surface();
   }
   asked_breaks_.clear();
 }
@@ -623,7 +624,7 @@ ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Ve
     require_node("section_force", node, is_inside.size());
     is_inside[index_of(node)] = 1;
   }
-  return dynamics::section_force(is_inside, state_before(scene_.state, last_drift_), bonds_,
+  return dynamics::section_force(is_inside, state_before(scene_.state, last_drift_), *bonds_,
                                  sheet_facets_, about);
 }
 
@@ -650,12 +651,12 @@ const Vec3& Simulation::gathered_torque(std::size_t body) const {
 }
 
 BondForces Simulation::bond_forces(std::size_t bond) const {
-  require_index("bond_forces", "bond", bond, bonds_.size());
-  return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
+  require_index("bond_forces", "bond", bond, bonds_->size());
+  return yielding_bonds_.forces_of(bond, *bonds_, scene_.state);
 }
 
 BondStress Simulation::bond_stress(std::size_t bond) const {
-  require_index("bond_stress", "bond", bond, bonds_.size());
+  require_index("bond_stress", "bond", bond, bonds_->size());
   return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
 }
 
@@ -694,13 +695,13 @@ void Simulation::exchange(const geometry::StateArchive& archive) {
 /// What goes on in another scene too.
 void Simulation::exchange_kept(const geometry::StateArchive& archive) {
   exchange_motion(archive);
-  bonds_.exchange(archive.group("bonds"));
+  bonds_->exchange(archive.group("bonds"));
   yielding_bonds_.exchange(archive.group("yield"));
   sheet_facets_.exchange(archive.group("sheets"));
-  if (archive.is_reading()) loads_.follow(bonds_, sheet_facets_);
+  if (archive.is_reading()) loads_.follow(*bonds_, sheet_facets_);
   if (!ties_.empty()) ties_.exchange(archive.group("ties"));
   if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
-  asked_breaks_.exchange(archive.group("asked_breaks"), bonds_.size(), scene_.state.size());
+  asked_breaks_.exchange(archive.group("asked_breaks"), bonds_->size(), scene_.state.size());
   exchange_last_step(archive.group("step"));
   exchange_ledger(archive.group("ledger"));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/models.hpp"
+#include "contact/contact_model.hpp"
 #include "dynamics/asked_breaks.hpp"
 #include "dynamics/carry_over/late_starts.hpp"
 #include "dynamics/carry_over/scene_change.hpp"
@@ -21,7 +21,6 @@
 #include "dynamics/simulation_options.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
-#include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
 #include "dynamics/ties/ties.hpp"
@@ -42,6 +41,7 @@
 
 namespace plekton::dynamics {
 
+class BeamBonds;
 class FaultFinder;
 class StepChooser;
 class StepLimits;
@@ -154,7 +154,7 @@ class Simulation {
   const geometry::Elements& elements() const noexcept { return scene_.elements; }
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
-  const BeamBonds& bonds() const noexcept { return bonds_; }
+  const BeamBonds& bonds() const noexcept { return *bonds_; }
   /// The bonds that yield or break, and which of them broke in the last step.
   const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }
   /// What a bond carries where its nodes are now.
@@ -350,7 +350,7 @@ class Simulation {
   RigidBodies rigid_bodies_;
   LateStarts late_starts_;  ///< in the next step
   std::unique_ptr<contact::Contacts> contacts_;
-  BeamBonds bonds_;
+  std::unique_ptr<BeamBonds> bonds_;
   YieldingBonds yielding_bonds_;
   SheetFacets sheet_facets_;
   Ties ties_;

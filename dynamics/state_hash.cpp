@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/state_hash.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/base/bit_hash.hpp"
 
 namespace plekton::dynamics {

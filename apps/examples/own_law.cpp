@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact law of one's own: a ball that bounces on a floor with a spring that is stiffer when it
 // unloads (Walton & Braun, J. Rheology 30 (1986) 949-980). SI units throughout.
+#include <plekton/contact/models.hpp>
 #include <plekton/dynamics/simulation.hpp>
 
 #include <algorithm>

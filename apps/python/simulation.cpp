@@ -9,6 +9,7 @@
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/state_hash.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

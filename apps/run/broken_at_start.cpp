@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/broken_at_start.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
+
 #include <fmt/format.h>
 
 namespace plekton::apps {

@@ -4,6 +4,7 @@
 #include "apps/run/output_folder.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/file.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/structure/bonds_along.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/history.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
+
 #include <array>
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 #include "dynamics/loads/applied_loads.hpp"
 
 #include "dynamics/model/require_index.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>

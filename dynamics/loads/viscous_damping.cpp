@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/viscous_damping.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

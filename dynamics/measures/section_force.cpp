@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/measures/section_force.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
+
 #include <algorithm>
 
 namespace plekton::dynamics {

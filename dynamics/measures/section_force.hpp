@@ -3,12 +3,13 @@
 
 #include "dynamics/measures/force_and_moment.hpp"
 #include "dynamics/state/node_state.hpp"
-#include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 
 #include <vector>
 
 namespace plekton::dynamics {
+
+class BeamBonds;
+class SheetFacets;
 
 /// What a section carries that cuts some nodes from all others: what beams and sheets across it do
 /// to these nodes. Torn elements carry nothing. Linear in the number of elements.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bond_forces.hpp"
 
+#include "dynamics/structure/beam_kernel.hpp"
+
 namespace plekton::dynamics {
 namespace {
 

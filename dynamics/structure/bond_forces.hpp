@@ -2,9 +2,18 @@
 #pragma once
 
 #include "dynamics/state/node_state.hpp"
-#include "dynamics/structure/beam_kernel.hpp"
 
 namespace plekton::dynamics {
+
+// beam_kernel.hpp
+template <class Number>
+struct BeamSpringOf;
+template <class Number>
+struct BeamEndsOf;
+template <class Number>
+struct BeamPoseOf;
+template <class Number>
+struct BeamReactionOf;
 
 /// What a bond carries, in world axes.
 ///

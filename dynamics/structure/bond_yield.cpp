@@ -2,6 +2,7 @@
 #include "dynamics/structure/bond_yield.hpp"
 
 #include "dynamics/state/rotation_step.hpp"
+#include "dynamics/structure/beam_kernel.hpp"
 
 #include <algorithm>
 #include <array>

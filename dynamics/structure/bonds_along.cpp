@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bonds_along.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>

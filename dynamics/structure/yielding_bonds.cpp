@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/yielding_bonds.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/state/rotation_step.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 
 #include <algorithm>

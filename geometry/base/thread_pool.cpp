@@ -2,9 +2,15 @@
 #include "geometry/base/thread_pool.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace plekton::geometry {
 namespace {
@@ -61,8 +67,99 @@ int threads_beside_caller(int thread_count) noexcept {
 
 }  // namespace
 
+/// The threads beside the caller, and what all of them share.
+class ThreadPool::Crew {
+ public:
+  explicit Crew(int thread_count);
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+  ~Crew() { stop(); }
+
+  void run(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> body);
+  void run_shared(std::size_t count, FunctionRef<void(std::size_t, int)> body);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Indices of a part that nobody has taken yet.
+  struct alignas(64) SharedPart {
+    static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
+    static constexpr std::uint64_t kEnd = kOne - 1;
+    std::atomic<std::uint64_t> rest;           ///< begin * kOne + end
+    std::atomic<std::uint32_t> last_begun{0};  ///< the last round in which somebody has begun it
+
+    bool is_taken() const noexcept;
+
+    /// @returns whether there was any
+    bool take_first(std::size_t& index) noexcept;
+    bool take_last(std::size_t& index) noexcept;
+  };
+
+  struct Part {
+    std::size_t begin;
+    std::size_t end;
+  };
+
+  struct Task {
+    std::size_t count;
+    const FunctionRef<void(std::size_t, std::size_t, int)>* body;
+  };
+
+  /// Does all parts, as long as the others would be late.
+  /// @returns whether it has
+  bool run_alone() noexcept;
+  void run_with_others() noexcept;
+  /// @returns whether a part was left for the caller, or took much longer than the caller's own
+  bool finish_late(Clock::time_point start, std::uint32_t round) noexcept;
+  /// Reckons with a loop, and leaves the others alone where too many have been late.
+  void judge(Clock::time_point start, bool was_late) noexcept;
+  Part part(std::size_t count, std::size_t worker) const noexcept;
+  void share_out(std::size_t count);
+  /// Waits until all parts are taken, or for a share of the time since a start, 1 / pieces.
+  void wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept;
+  void work(int worker);
+  /// Does a part unless somebody has begun it in this round, or the round is over.
+  /// @returns whether it has
+  bool do_if_left(int worker, std::uint32_t round) noexcept;
+  /// Those of workers from one on. @returns whether there was any
+  bool do_all_left(int first, std::uint32_t round) noexcept;
+  void do_part(int worker) noexcept;
+  /// Whether all parts are done before long.
+  bool is_finished_soon() const noexcept;
+  void stop() noexcept;
+
+  int thread_count_;
+  int threads_beside_;  // The caller's: they have the parts of workers from 1 on.
+  Task task_{};
+  std::atomic<bool> stopping_ = false;
+  std::atomic<bool> busy_ = false;
+  std::vector<std::exception_ptr> failures_;  // One place for each worker.
+  std::vector<SharedPart> parts_;             // Likewise.
+  Clock::duration lateness_{};                // Time of loops that were late, less that of others.
+  Clock::time_point alone_until_{};  // Until when, and for how long, the caller does all parts.
+  Clock::duration alone_for_{};
+  bool is_alone_ = false;
+  // Written by one side and watched by the other: each on its own cache line.
+  alignas(64) std::atomic<std::uint32_t> round_ = 0;
+  alignas(64) std::atomic<std::uint32_t> unfinished_ = 0;
+  std::vector<std::jthread> threads_;
+};
+
 ThreadPool::ThreadPool(int thread_count)
-    : thread_count_(checked(thread_count)),
+    : thread_count_(checked(thread_count)), crew_(std::make_unique<Crew>(thread_count)) {}
+
+ThreadPool::~ThreadPool() = default;
+
+void ThreadPool::run(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> body) {
+  crew_->run(count, body);
+}
+
+void ThreadPool::run_shared(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
+  crew_->run_shared(count, body);
+}
+
+ThreadPool::Crew::Crew(int thread_count)
+    : thread_count_(thread_count),
       threads_beside_(threads_beside_caller(thread_count)),
       failures_(static_cast<std::size_t>(thread_count)),
       parts_(static_cast<std::size_t>(thread_count)) {
@@ -77,20 +174,17 @@ ThreadPool::ThreadPool(int thread_count)
   }
 }
 
-ThreadPool::~ThreadPool() {
-  stop();
-}
-
-void ThreadPool::stop() noexcept {
+void ThreadPool::Crew::stop() noexcept {
   stopping_ = true;
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   threads_.clear();  // Joins them.
 }
 
-void ThreadPool::run(const Task& task) {
+void ThreadPool::Crew::run(std::size_t count,
+                           FunctionRef<void(std::size_t, std::size_t, int)> body) {
   if (busy_.exchange(true, std::memory_order_acquire)) throw loop_in_loop();
-  task_ = task;
+  task_ = {count, &body};
   if (!run_alone()) run_with_others();
   std::exception_ptr first;
   for (std::exception_ptr& failure : failures_) {
@@ -101,14 +195,27 @@ void ThreadPool::run(const Task& task) {
   if (first) std::rethrow_exception(first);
 }
 
-bool ThreadPool::run_alone() noexcept {
+void ThreadPool::Crew::run_shared(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
+  share_out(count);
+  run(count, [&](std::size_t begin, std::size_t end, int worker) {
+    const Clock::time_point start = Clock::now();
+    std::size_t index;
+    while (parts_[static_cast<std::size_t>(worker)].take_first(index)) body(index, worker);
+    wait_for_late(start, std::max<std::size_t>(end - begin, 1));
+    for (SharedPart& of_worker : parts_) {
+      while (of_worker.take_last(index)) body(index, worker);
+    }
+  });
+}
+
+bool ThreadPool::Crew::run_alone() noexcept {
   is_alone_ = is_alone_ && Clock::now() < alone_until_;
   if (!is_alone_) return false;
   for (int worker = 0; worker < thread_count_; ++worker) do_part(worker);
   return true;
 }
 
-void ThreadPool::run_with_others() noexcept {
+void ThreadPool::Crew::run_with_others() noexcept {
   const Clock::time_point start = Clock::now();
   unfinished_.store(static_cast<std::uint32_t>(thread_count_ - 1), std::memory_order_relaxed);
   const std::uint32_t round = round_.fetch_add(1, std::memory_order_release) + 1;
@@ -118,7 +225,7 @@ void ThreadPool::run_with_others() noexcept {
   judge(start, !is_finished_soon() && finish_late(start, round));
 }
 
-bool ThreadPool::finish_late(Clock::time_point start, std::uint32_t round) noexcept {
+bool ThreadPool::Crew::finish_late(Clock::time_point start, std::uint32_t round) noexcept {
   const Clock::time_point done = Clock::now();
   const bool was_left = do_all_left(1, round);
   const Clock::time_point waiting = Clock::now();
@@ -129,7 +236,7 @@ bool ThreadPool::finish_late(Clock::time_point start, std::uint32_t round) noexc
   return was_left || Clock::now() - waiting > std::max<Clock::duration>(kLongWait, done - start);
 }
 
-void ThreadPool::judge(Clock::time_point start, bool was_late) noexcept {
+void ThreadPool::Crew::judge(Clock::time_point start, bool was_late) noexcept {
   const Clock::time_point now = Clock::now();
   if (!was_late) {
     // The caller may have lost its own core in a long one, which tells nothing of the others.
@@ -146,7 +253,7 @@ void ThreadPool::judge(Clock::time_point start, bool was_late) noexcept {
   lateness_ = {};
 }
 
-bool ThreadPool::is_finished_soon() const noexcept {
+bool ThreadPool::Crew::is_finished_soon() const noexcept {
   for (int look = 0; look < kLooksForBegin; ++look) {
     if (unfinished_.load(std::memory_order_acquire) == 0) return true;
     pause();
@@ -155,7 +262,7 @@ bool ThreadPool::is_finished_soon() const noexcept {
 }
 
 /// A thread that comes late may miss rounds: others have done its part.
-void ThreadPool::work(int worker) {
+void ThreadPool::Crew::work(int worker) {
   for (std::uint32_t round = 0;;) {
     wait_for_change(round_, round);
     round = round_.load(std::memory_order_acquire);
@@ -166,7 +273,7 @@ void ThreadPool::work(int worker) {
 }
 
 /// A round is not over before all of its parts have been begun, so the task is that of the round.
-bool ThreadPool::do_if_left(int worker, std::uint32_t round) noexcept {
+bool ThreadPool::Crew::do_if_left(int worker, std::uint32_t round) noexcept {
   std::uint32_t before = round - 1;
   if (!parts_[static_cast<std::size_t>(worker)].last_begun.compare_exchange_strong(
           before, round, std::memory_order_relaxed))
@@ -176,22 +283,23 @@ bool ThreadPool::do_if_left(int worker, std::uint32_t round) noexcept {
   return true;
 }
 
-bool ThreadPool::do_all_left(int first, std::uint32_t round) noexcept {
+bool ThreadPool::Crew::do_all_left(int first, std::uint32_t round) noexcept {
   bool was_left = false;
   for (int worker = first; worker < thread_count_; ++worker) was_left |= do_if_left(worker, round);
   return was_left;
 }
 
-void ThreadPool::do_part(int worker) noexcept {
+void ThreadPool::Crew::do_part(int worker) noexcept {
   const auto [begin, end] = part(task_.count, static_cast<std::size_t>(worker));
   try {
-    task_.call(task_.body, begin, end, worker);
+    (*task_.body)(begin, end, worker);
   } catch (...) {
     failures_[static_cast<std::size_t>(worker)] = std::current_exception();
   }
 }
 
-ThreadPool::Part ThreadPool::part(std::size_t count, std::size_t worker) const noexcept {
+ThreadPool::Crew::Part ThreadPool::Crew::part(std::size_t count,
+                                              std::size_t worker) const noexcept {
   const auto parts = static_cast<std::size_t>(thread_count_);
   const std::size_t length = count / parts;
   const std::size_t longer = count % parts;  // The first parts have one more.
@@ -199,7 +307,7 @@ ThreadPool::Part ThreadPool::part(std::size_t count, std::size_t worker) const n
   return {begin, begin + length + (worker < longer ? 1 : 0)};
 }
 
-void ThreadPool::share_out(std::size_t count) {
+void ThreadPool::Crew::share_out(std::size_t count) {
   if (busy_.load(std::memory_order_relaxed)) throw loop_in_loop();
   for (std::size_t worker = 0; worker < parts_.size(); ++worker) {
     const auto [begin, end] = part(count, worker);
@@ -207,7 +315,7 @@ void ThreadPool::share_out(std::size_t count) {
   }
 }
 
-void ThreadPool::wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept {
+void ThreadPool::Crew::wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept {
   if (is_alone_) return;
   const Clock::time_point done = Clock::now();
   const Clock::time_point end = done + (done - start) / static_cast<std::int64_t>(pieces);
@@ -215,14 +323,14 @@ void ThreadPool::wait_for_late(Clock::time_point start, std::size_t pieces) cons
   while (!std::all_of(parts_.begin(), parts_.end(), is_taken) && Clock::now() < end) pause();
 }
 
-bool ThreadPool::SharedPart::is_taken() const noexcept {
+bool ThreadPool::Crew::SharedPart::is_taken() const noexcept {
   const std::uint64_t left = rest.load(std::memory_order_relaxed);
   return left >> 32 >= (left & kEnd);
 }
 
 // What is left only shrinks while a loop runs, so that an old value never comes back.
 
-bool ThreadPool::SharedPart::take_first(std::size_t& index) noexcept {
+bool ThreadPool::Crew::SharedPart::take_first(std::size_t& index) noexcept {
   std::uint64_t left = rest.load(std::memory_order_relaxed);
   do {
     index = left >> 32;
@@ -231,7 +339,7 @@ bool ThreadPool::SharedPart::take_first(std::size_t& index) noexcept {
   return true;
 }
 
-bool ThreadPool::SharedPart::take_last(std::size_t& index) noexcept {
+bool ThreadPool::Crew::SharedPart::take_last(std::size_t& index) noexcept {
   std::uint64_t left = rest.load(std::memory_order_relaxed);
   do {
     index = (left & kEnd) - 1;

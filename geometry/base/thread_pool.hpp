@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
+#include "geometry/base/function_ref.hpp"
+
 #include <cstddef>
-#include <cstdint>
-#include <exception>
 #include <memory>
-#include <thread>
-#include <type_traits>
-#include <vector>
 
 namespace plekton::geometry {
 
@@ -51,11 +45,7 @@ class ThreadPool {
       body(std::size_t{0}, count, 0);
       return;
     }
-    using Plain = std::remove_reference_t<Body>;
-    run({count, const_cast<std::remove_const_t<Plain>*>(std::addressof(body)),
-         [](void* erased, std::size_t begin, std::size_t end, int worker) {
-           (*static_cast<Plain*>(erased))(begin, end, worker);
-         }});
+    run(count, body);
   }
 
   /// Calls body(index, worker) once for every index in [0, count), and waits for all: for pieces of
@@ -73,85 +63,17 @@ class ThreadPool {
       for (std::size_t index = 0; index < count; ++index) body(index, 0);
       return;
     }
-    share_out(count);
-    for_each_range(count, [&](std::size_t begin, std::size_t end, int worker) {
-      const auto start = std::chrono::steady_clock::now();
-      std::size_t index;
-      while (parts_[static_cast<std::size_t>(worker)].take_first(index)) body(index, worker);
-      wait_for_late(start, std::max<std::size_t>(end - begin, 1));
-      for (SharedPart& part : parts_) {
-        while (part.take_last(index)) body(index, worker);
-      }
-    });
+    run_shared(count, body);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  class Crew;
 
-  /// Indices of a part that nobody has taken yet.
-  struct alignas(64) SharedPart {
-    static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
-    static constexpr std::uint64_t kEnd = kOne - 1;
-    std::atomic<std::uint64_t> rest;           ///< begin * kOne + end
-    std::atomic<std::uint32_t> last_begun{0};  ///< the last round in which somebody has begun it
-
-    bool is_taken() const noexcept;
-
-    /// @returns whether there was any
-    bool take_first(std::size_t& index) noexcept;
-    bool take_last(std::size_t& index) noexcept;
-  };
-
-  struct Part {
-    std::size_t begin;
-    std::size_t end;
-  };
-
-  struct Task {
-    std::size_t count;
-    void* body;
-    void (*call)(void* body, std::size_t begin, std::size_t end, int worker);
-  };
-
-  void run(const Task& task);
-  /// Does all parts, as long as the others would be late.
-  /// @returns whether it has
-  bool run_alone() noexcept;
-  void run_with_others() noexcept;
-  /// @returns whether a part was left for the caller, or took much longer than the caller's own
-  bool finish_late(Clock::time_point start, std::uint32_t round) noexcept;
-  /// Reckons with a loop, and leaves the others alone where too many have been late.
-  void judge(Clock::time_point start, bool was_late) noexcept;
-  Part part(std::size_t count, std::size_t worker) const noexcept;
-  void share_out(std::size_t count);
-  /// Waits until all parts are taken, or for a share of the time since a start, 1 / pieces.
-  void wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept;
-  void work(int worker);
-  /// Does a part unless somebody has begun it in this round, or the round is over.
-  /// @returns whether it has
-  bool do_if_left(int worker, std::uint32_t round) noexcept;
-  /// Those of workers from one on. @returns whether there was any
-  bool do_all_left(int first, std::uint32_t round) noexcept;
-  void do_part(int worker) noexcept;
-  /// Whether all parts are done before long.
-  bool is_finished_soon() const noexcept;
-  void stop() noexcept;
+  void run(std::size_t count, FunctionRef<void(std::size_t, std::size_t, int)> body);
+  void run_shared(std::size_t count, FunctionRef<void(std::size_t, int)> body);
 
   int thread_count_;
-  int threads_beside_;  // The caller's: they have the parts of workers from 1 on.
-  Task task_{};
-  std::atomic<bool> stopping_ = false;
-  std::atomic<bool> busy_ = false;
-  std::vector<std::exception_ptr> failures_;  // One place for each worker.
-  std::vector<SharedPart> parts_;             // Likewise.
-  Clock::duration lateness_{};                // Time of loops that were late, less that of others.
-  Clock::time_point alone_until_{};  // Until when, and for how long, the caller does all parts.
-  Clock::duration alone_for_{};
-  bool is_alone_ = false;
-  // Written by one side and watched by the other: each on its own cache line.
-  alignas(64) std::atomic<std::uint32_t> round_ = 0;
-  alignas(64) std::atomic<std::uint32_t> unfinished_ = 0;
-  std::vector<std::jthread> threads_;
+  std::unique_ptr<Crew> crew_;  ///< apart: what threads need takes long to compile
 };
 
 }  // namespace plekton::geometry

@@ -2,6 +2,8 @@
 #include "dynamics/asked_breaks.hpp"
 
 #include "dynamics/measures/energy_ledger.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/cohesive_frictional.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/dynamics/ball_on_ground.hpp"
 #include "tests/support/named_laws.hpp"

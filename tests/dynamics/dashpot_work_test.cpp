@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/dashpot.hpp"
 #include "contact/law/restitution.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/dynamics/ball_on_ground.hpp"
 #include "tests/support/named_laws.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/named_laws.hpp"
 #include "tests/support/seeded_random.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/models.hpp"
 #include "tests/support/free_bodies.hpp"
 #include "tests/support/free_collision.hpp"
 #include "tests/support/named_laws.hpp"

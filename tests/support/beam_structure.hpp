@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/state/rotation_step.hpp"
 #include "dynamics/model/scene.hpp"
+#include "dynamics/state/rotation_step.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 
 #include <Eigen/LU>
 

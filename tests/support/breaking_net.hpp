@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <array>

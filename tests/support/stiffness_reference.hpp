@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/stiffness/nodal_stiffness.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/beam_structure.hpp"
 

@@ -3,6 +3,7 @@
 // it rests, at 27.5 and 35 degrees it slides with a = g (sin b - mu cos b), whatever its facets lie
 // on.
 #include "contact/law_list.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"

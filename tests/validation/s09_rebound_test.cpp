@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/named_laws.hpp"
 

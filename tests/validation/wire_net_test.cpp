@@ -11,6 +11,7 @@
 // and the net of n meshes across and R rows of twists n P at the elongation R (t' - t) + (R + 1)
 // (h' - h). At the sides a twist has one wire at either end instead of two, and half of the force.
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/lattice.hpp"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 // The acceptance checks ask much of the same for one set of parameters: A1 (D6), A15 (beams in
 // D14), A16 (D12), A24 (D16). Here are other ones, and what only the defect would change.
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/free_bodies.hpp"
 #include "tests/support/sweep_paths.hpp"

@@ -2,6 +2,7 @@
 #include "tests/benchmarks/scenes/laws.hpp"
 
 #include "contact/law_list.hpp"
+#include "contact/models.hpp"
 
 #include <stdexcept>
 

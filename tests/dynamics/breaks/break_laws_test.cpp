@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Breaks under every contact law.
+#include "contact/models.hpp"
 #include "tests/support/breaking_net.hpp"
 #include "tests/support/named_laws.hpp"
 

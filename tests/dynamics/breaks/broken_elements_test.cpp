@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/broken_elements.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "tests/support/breaking_net.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sheets that tear, and elements that are broken by name.
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"
 #include "tests/support/free_collision.hpp"

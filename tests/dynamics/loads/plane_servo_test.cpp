@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/plane_servo.hpp"
 
+#include "contact/models.hpp"
 #include "tests/support/loaded_scene.hpp"
 #include "tests/support/named_laws.hpp"
 

@@ -2,6 +2,7 @@
 #include "dynamics/loads/pressed_rest_state.hpp"
 
 #include "dynamics/loads/surface_pressure.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"

@@ -2,6 +2,8 @@
 #include "dynamics/measures/section_force.hpp"
 
 #include "dynamics/model/scene.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
 #include <gtest/gtest.h>
 

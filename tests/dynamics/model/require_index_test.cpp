@@ -2,6 +2,7 @@
 #include "dynamics/model/require_index.hpp"
 
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

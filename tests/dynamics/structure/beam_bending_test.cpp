@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/beam_structure.hpp"
 
 #include <gtest/gtest.h>

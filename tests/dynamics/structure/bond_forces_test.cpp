@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bond_forces.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/seeded_random.hpp"
 

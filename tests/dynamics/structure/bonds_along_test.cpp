@@ -2,6 +2,7 @@
 #include "dynamics/structure/bonds_along.hpp"
 
 #include "dynamics/model/scene.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "dynamics/structure/lumped_mass.hpp"
 
 #include "dynamics/model/scene.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/linear_algebra.hpp"
 

@@ -4,6 +4,7 @@
 #include "dynamics/scene_check.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/state_hash.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
 #include "tests/support/yielding_lattice.hpp"
 

@@ -2,6 +2,7 @@
 #include "dynamics/time_step/exact_step.hpp"
 
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/linear_algebra.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/step_limits.hpp"
 
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/named_laws.hpp"
 
