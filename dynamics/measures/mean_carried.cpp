@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/measures/mean_carried.hpp"
 
+#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/base/elementary.hpp"
 
 #include <cmath>

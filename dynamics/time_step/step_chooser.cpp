@@ -2,6 +2,7 @@
 #include "dynamics/time_step/step_chooser.hpp"
 
 #include "dynamics/model/scene_figures.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/time_step/expected_contacts.hpp"
 #include "geometry/base/state_archive.hpp"
 

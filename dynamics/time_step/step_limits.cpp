@@ -5,6 +5,7 @@
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/stiffness/contact_springs.hpp"
 #include "dynamics/stiffness/spring_shares.hpp"
+#include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
 
 #include <algorithm>
