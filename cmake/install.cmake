@@ -21,6 +21,7 @@ plekton_public_headers(public_headers
   dynamics/measures/unbalanced_force.hpp
   dynamics/scene_check.hpp
   dynamics/simulation.hpp
+  dynamics/structure/beam_bonds.hpp
   dynamics/structure/bonds_along.hpp
   dynamics/structure/membrane_force.hpp
   geometry/mesh/generate/closed_tube.hpp

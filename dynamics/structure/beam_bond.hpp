@@ -9,10 +9,10 @@
 
 namespace plekton::dynamics {
 
-class BeamBonds;  // beam_bonds.hpp
-
+// beam_bonds.hpp and beam_kernel.hpp
+class BeamBonds;
 template <class Number>
-struct BeamSpringOf;  // beam_kernel.hpp
+struct BeamSpringOf;
 
 /// Section and material of a beam. With second_moment and torsion_constant 0 it is a bar, which
 /// only resists stretching.
