@@ -89,6 +89,10 @@ MaterialPairs checked_pairs(std::vector<Material> materials,
 
 }  // namespace
 
+ContactModel linear_frictional() {
+  return model_of<LinearFrictional>();
+}
+
 ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties) {
   return model_of<LinearFrictional>(properties);
 }
