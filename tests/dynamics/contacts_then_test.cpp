@@ -27,6 +27,7 @@ class ContactsThen : public testing::Test {
     scene_.state.velocity[0] = Vec3(0, 0, 0.05);
     scene_.planes.push_back({Vec3::Zero(), Vec3::UnitZ()});
     scene_.planes[0].velocity = Vec3(0, 0, 0.02);
+    surface_ = geometry::Surface({}, {}, 1);
     contacts_ = contact::linear_frictional()(contact_scene(scene_, surface_, 0.0, false));
     NodeForces forces(1);
     contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces);
@@ -50,7 +51,7 @@ TEST_F(ContactsThen, AreThoseOfWhereNodesAndPlanesWere) {
   const double now = force();
   double then = 0.0;
   contacts_then(*contacts_, scene_, kTime, pool_, [&] { then = force(); });
-  // The linear law, whose dashpots do the same at both times.
+  // The linear law: in proportion to the overlap.
   EXPECT_GT(now, 0.0);
   const double deeper = kTime * (0.05 - 0.02);
   EXPECT_NEAR(then / now, (kOverlap + deeper) / kOverlap, 1e-9);
