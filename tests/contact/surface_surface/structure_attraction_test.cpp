@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/dmt_adhesion.hpp"
 #include "tests/support/bodies_of_cells.hpp"
+#include "tests/support/structure_gradient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,24 +61,10 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
     for (std::size_t i = 0; i < b.x.size(); ++i)
       direction.emplace_back(u(random), u(random), u(random));
     StructurePair structure_pair(a, b, kRange, {kWork});
-    const auto energy_at = [&](double step) {
-      Body shifted = b;
-      for (std::size_t i = 0; i < b.x.size(); ++i) shifted.x[i] += step * direction[i];
-      structure_pair.place(shifted);
-      return structure_pair.energy();
-    };
     // A straight chain is where a wrap sets in (contact/counting/wrap.hpp): with the square
     // of the bend on one side only, which differences see as a slope in proportion to the step.
-    constexpr double kStep = 2e-9;
-    const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);
-    energy_at(0.0);
-    double power = 0.0, scale = 0.0;
-    for (std::size_t i = 0; i < b.x.size(); ++i) {
-      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
-      power += force.dot(direction[i]);
-      scale += force.norm() * direction[i].norm();
-    }
-    EXPECT_NEAR(power, -change, 2e-5 * scale) << k;
+    const Slope slope = slope_along(structure_pair, b, direction, 2e-9);
+    EXPECT_NEAR(slope.power, -slope.change, 2e-5 * slope.scale) << k;
   }
 }
 

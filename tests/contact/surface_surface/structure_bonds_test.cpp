@@ -3,6 +3,7 @@
 #include "tests/support/bodies_of_cells.hpp"
 #include "tests/support/hollow_ball.hpp"
 #include "tests/support/seeded_random.hpp"
+#include "tests/support/structure_gradient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -106,16 +107,21 @@ TEST(StructureBonds, CountBodiesThatFallTogetherAsTheyComeApartSlowly) {
   const Body net = square_net_of(1, 0.6);
   double length = 0.0;
   for (const auto& [first, last] : net.cylinders)
-    length += (net.x[static_cast<std::size_t>(first)] - net.x[static_cast<std::size_t>(last)]).norm();
+    length +=
+        (net.x[static_cast<std::size_t>(first)] - net.x[static_cast<std::size_t>(last)]).norm();
   const Lying cases[] = {
       {"equal sheets", square, square, {0, 0, 0}, {0, 0, 0}, area},
       {"sheets of one outline", square, sheet(2, 2, 0.9, 0.9), {0, 0, 0}, {0, 0, 0}, area},
-      {"mesh on plate", sheet(2, 2, 3.0, 3.0), net, {0, 0, 0}, {0.03, 0.02, 0}, 1.0 + length / kRange}};
+      {"mesh on plate",
+       sheet(2, 2, 3.0, 3.0),
+       net,
+       {0, 0, 0},
+       {0.03, 0.02, 0},
+       1.0 + length / kRange}};
   for (const Lying& lying : cases) {
     SCOPED_TRACE(lying.name);
     StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
-    for (int i = 0; i < 100; ++i)
-      structure_pair.place(lifted(lying, -kOverlap * (1.0 - 0.01 * i)));
+    for (int i = 0; i < 100; ++i) structure_pair.place(lifted(lying, -kOverlap * (1.0 - 0.01 * i)));
     structure_pair.place(lifted(lying, 0.5 * kLimit));
     const double limit = lying.contacts * kLimit;
     EXPECT_NEAR(structure_pair.force_on_b().z(), -0.5 * limit, 0.1 * limit);
@@ -251,28 +257,14 @@ TEST(StructureBonds, PullAgainstTheGradientOfTheirEnergy) {
     for (Vec3& x : off.x) x.z() += 0.01 * (x.x() + 0.6) + 1e-4 * random.uniform(-1.0, 1.0);
     std::vector<Vec3> direction;
     for (std::size_t i = 0; i < off.x.size(); ++i) direction.push_back(random.in_cube(1.0));
-    const auto energy_at = [&](double step) {
-      Body moved = off;
-      for (std::size_t i = 0; i < off.x.size(); ++i) moved.x[i] += step * direction[i];
-      structure_pair.place(moved);
-      return structure_pair.energy();
-    };
-    constexpr double kStep = 1e-7;
-    const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);
-    energy_at(0.0);
-    double power = 0.0, scale = 0.0;
-    for (std::size_t i = 0; i < off.x.size(); ++i) {
-      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
-      power += force.dot(direction[i]);
-      scale += force.norm() * direction[i].norm();
-    }
-    EXPECT_GT(scale, 0.0);
-    EXPECT_NEAR(power, -change, 1e-6 * scale);
+    const Slope slope = slope_along(structure_pair, off, direction, 1e-7);
+    EXPECT_GT(slope.scale, 0.0);
+    EXPECT_NEAR(slope.power, -slope.change, 1e-6 * slope.scale);
     const Vec3 about = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
     for (std::size_t i = 0; i < structure_pair.positions().size(); ++i)
       moment += (structure_pair.positions()[i] - about).cross(structure_pair.forces()[i]);
-    EXPECT_LT(moment.norm(), 1e-14 * scale);
+    EXPECT_LT(moment.norm(), 1e-14 * slope.scale);
   }
 }
 

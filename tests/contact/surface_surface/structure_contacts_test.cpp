@@ -2,6 +2,7 @@
 #include "contact/surface_surface/structure_contacts.hpp"
 
 #include "tests/support/bodies_of_cells.hpp"
+#include "tests/support/structure_gradient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -357,24 +358,10 @@ TEST(StructureContacts, PushAgainstTheGradientOfTheirEnergy) {
     std::vector<Vec3> direction;
     for (std::size_t i = 0; i < b.x.size(); ++i)
       direction.emplace_back(normal(random), normal(random), normal(random));
-    const auto energy_at = [&](double step) {
-      Body shifted = b;
-      for (std::size_t i = 0; i < b.x.size(); ++i) shifted.x[i] += step * direction[i];
-      structure_pair.place(shifted);
-      return structure_pair.energy();
-    };
     // Central differences: error of order h^2 times the third derivative, about (k / largest tilt)
     // / (largest tilt * size)^2 where bodies are nearly parallel.
-    constexpr double kStep = 2e-8;
-    const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);
-    energy_at(0.0);
-    double power = 0.0, scale = 0.0;
-    for (std::size_t i = 0; i < b.x.size(); ++i) {
-      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
-      power += force.dot(direction[i]);
-      scale += force.norm() * direction[i].norm();
-    }
-    EXPECT_NEAR(power, -change, 2e-5 * scale) << k;
+    const Slope slope = slope_along(structure_pair, b, direction, 2e-8);
+    EXPECT_NEAR(slope.power, -slope.change, 2e-5 * slope.scale) << k;
   });
 }
 
