@@ -79,10 +79,11 @@ MaterialPairs checked_pairs(std::vector<Material> materials,
                             const AnyLaw::Properties& others) {
   std::ostringstream problems;
   const std::size_t count = materials.size();
-  const bool has_laws = list_pair_problems(properties, count, problems) &
-                        list_law_problems(others, "pairs of materials", problems);
+  const bool pairs_have_laws = list_pair_problems(properties, count, problems);
+  const bool others_have_one = list_law_problems(others, "pairs of materials", problems);
   MaterialPairs pairs(std::move(materials), properties, others);
-  if (has_laws && problems.view().empty()) list_stiffness_problems(pairs, problems);
+  if (pairs_have_laws && others_have_one && problems.view().empty())
+    list_stiffness_problems(pairs, problems);
   geometry::throw_if_any(problems);
   return pairs;
 }

@@ -68,9 +68,9 @@ struct SpreadContact {
       row(name + "_point", point);
     }
     /// Transpose of both.
-    void add_force_at(const Vec3& lever, const Vec3& force, const Vec3& moment,
+    void add_force_at(const Vec3& lever, const Vec3& force, const Vec3& free_moment,
                       NodeForces& forces) const {
-      const Vec3 torque = lever.cross(force) + moment;
+      const Vec3 torque = lever.cross(force) + free_moment;
       for (std::size_t i = 0; i < 3; ++i) {
         forces.force[index_of(nodes[i])] += shares[i] * force;
         forces.torque[index_of(nodes[i])] += shares[i] * torque;

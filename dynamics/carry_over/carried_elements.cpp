@@ -54,10 +54,12 @@ bool are_same_there(const Scene& a, const Scene& b) {
 }
 
 bool take_elements(const Scene& before, Scene& now) {
-  return take_table(before, before.elements.facets, before.facet_materials, now,
-                    now.elements.facets, now.facet_materials) |
-         take_table(before, before.elements.cylinders, before.cylinder_materials, now,
-                    now.elements.cylinders, now.cylinder_materials);
+  const bool are_other_facets = take_table(before, before.elements.facets, before.facet_materials,
+                                           now, now.elements.facets, now.facet_materials);
+  const bool are_other_cylinders =
+      take_table(before, before.elements.cylinders, before.cylinder_materials, now,
+                 now.elements.cylinders, now.cylinder_materials);
+  return are_other_facets || are_other_cylinders;
 }
 
 }  // namespace plekton::dynamics

@@ -31,8 +31,10 @@ inline bool erase_absent(Scene& scene) {
   const auto is_absent = [&scene](const auto& element, contact::MaterialId) {
     return !scene.is_there(element.nodes[0]);
   };
-  return erase_elements(scene.elements.facets, scene.facet_materials, is_absent) |
-         erase_elements(scene.elements.cylinders, scene.cylinder_materials, is_absent);
+  const bool had_facets = erase_elements(scene.elements.facets, scene.facet_materials, is_absent);
+  const bool had_cylinders =
+      erase_elements(scene.elements.cylinders, scene.cylinder_materials, is_absent);
+  return had_facets || had_cylinders;
 }
 
 }  // namespace plekton::dynamics

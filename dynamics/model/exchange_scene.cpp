@@ -67,9 +67,11 @@ void exchange_planes(const geometry::StateArchive& archive, std::vector<contact:
 }
 
 bool exchange_elements(const geometry::StateArchive& archive, Scene& scene) {
-  return exchange_table(archive, "cylinders", scene, scene.elements.cylinders,
-                        scene.cylinder_materials) |
-         exchange_table(archive, "facets", scene, scene.elements.facets, scene.facet_materials);
+  const bool are_other_cylinders = exchange_table(
+      archive, "cylinders", scene, scene.elements.cylinders, scene.cylinder_materials);
+  const bool are_other_facets =
+      exchange_table(archive, "facets", scene, scene.elements.facets, scene.facet_materials);
+  return are_other_cylinders || are_other_facets;
 }
 
 }  // namespace plekton::dynamics

@@ -11,6 +11,8 @@ namespace {
 /// A ray that grazes halves its distance in each step; after as many no bit is left of it.
 constexpr int kMostHalvings = 100;
 
+constexpr double kLastBit = std::numeric_limits<double>::epsilon();
+
 /// Of a core without thickness the point may be on it, or beyond it by rounding: there the normal
 /// is turned to where the ray comes from.
 RayHit hit_at(double t, const Vec3& point, const Proximity& proximity, CellId cell, const Ray& ray,
@@ -29,19 +31,17 @@ bool can_hit(const Ray& ray) noexcept {
 }
 
 double resolution(const Ray& ray, double t) noexcept {
-  constexpr double kUlp = std::numeric_limits<double>::epsilon();
-  return kUlp * (2.0 * t * ray.direction.norm() + ray.origin.norm());
+  return kLastBit * (2.0 * t * ray.direction.norm() + ray.origin.norm());
 }
 
 std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) noexcept {
-  constexpr double kUlp = std::numeric_limits<double>::epsilon();
   if (!can_hit(ray)) return std::nullopt;
   const double radius = on.surface.radius(on.surface.structure_of(cell));
   double t = 0.0;
   for (int step = 0; step < kMostHalvings; ++step) {
     const Vec3 point = ray.origin + t * ray.direction;
     const Proximity near = proximity(Probe::point(point), on, cell);
-    if (near.gap <= 4.0 * kUlp * near.arm_b + resolution(ray, t))
+    if (near.gap <= 4.0 * kLastBit * near.arm_b + resolution(ray, t))
       return hit_at(t, point, near, cell, ray, radius);
     const double approach = near.normal.dot(ray.direction);  // how fast the gap closes
     if (!(approach > 0.0)) {

@@ -16,7 +16,6 @@
 namespace plekton::geometry {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Loop = std::vector<NodeId>;
 using Edge = std::array<NodeId, 2>;
 
@@ -83,7 +82,7 @@ struct Corners {
 };
 
 std::vector<std::array<NodeId, 3>> filling_of(const Mesh& mesh, const Loop& loop) {
-  std::vector<Kernel::Point_3> points;
+  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
   for (const NodeId node : loop) {
     const Vec3& p = mesh.points[index_of(node)];
     points.emplace_back(p[0], p[1], p[2]);
