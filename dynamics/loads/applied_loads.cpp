@@ -2,7 +2,6 @@
 #include "dynamics/loads/applied_loads.hpp"
 
 #include "dynamics/model/require_index.hpp"
-#include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "geometry/base/problems.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <ostream>
 #include <sstream>

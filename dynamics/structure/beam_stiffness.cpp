@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/beam_stiffness.hpp"
 
-#include "dynamics/structure/beam_bonds.hpp"
 
 #include <algorithm>
 #include <numbers>

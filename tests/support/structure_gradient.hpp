@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 /// Whether what a pair of bodies does to the second one is the gradient of its energy.
@@ -42,25 +43,31 @@ Slope slope_along(StructurePairUnder<Law>& pair, const Body& b, const std::vecto
 }
 
 /// The most by which a component of the forces on nodes of the second body is not the slope of the
-/// energy, over the largest force (N, where there is
-/// none). @param each  of how many nodes one is looked at
+/// energy, over the largest force; infinite where that is none. NaN if anything is.
+/// @param each  of how many nodes one is looked at
 template <class Law>
 double worst_gradient_error(StructurePairUnder<Law>& pair, const Body& b, double step,
                             std::size_t each = 1) {
   pair.place(b);
   const std::vector<Vec3> forces = pair.forces();
-  double largest = 0.0, worst = 0.0;
-  for (const Vec3& force : forces) largest = std::max(largest, force.norm());
+  double largest = 0.0;
+  for (const Vec3& force : forces) {
+    if (!force.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+    largest = std::max(largest, force.norm());
+  }
+  double worst = 0.0;
   for (std::size_t i = 0; i < b.x.size(); i += each) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<Vec3> ways(b.x.size(), Vec3::Zero());
       ways[i] = Vec3::Unit(axis);
       const double expected =
           (energy_along(pair, b, ways, -step) - energy_along(pair, b, ways, step)) / (2.0 * step);
-      worst = std::max(worst, std::abs(forces[pair.first_node_of_b() + i][axis] - expected));
+      const double error = std::abs(forces[pair.first_node_of_b() + i][axis] - expected);
+      if (!std::isfinite(error)) return error;
+      worst = std::max(worst, error);
     }
   }
-  return largest > 0.0 ? worst / largest : worst;
+  return worst > 0.0 ? worst / largest : 0.0;
 }
 
 }  // namespace plekton::test

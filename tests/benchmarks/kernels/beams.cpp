@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of beams between nodes: dynamics/structure/beam_bond.hpp.
-#include "dynamics/structure/beam_bond.hpp"
+// Forces of beams between nodes: dynamics/structure/beam_bonds.hpp.
 #include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/lattice.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"

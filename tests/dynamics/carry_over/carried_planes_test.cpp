@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace plekton::dynamics::carried_planes_test {
 namespace {
 

@@ -147,7 +147,7 @@ TEST(BondYield, BendsABeamByTheBilinearLaw) {
     const BondForces forces = beam.bent(angle);
 
     const double moment = law.at(multiple * first);
-    // The bond is linear in pure bending (beam_bond.hpp). The turns of both ends are solved for to
+    // The bond is linear in pure bending (beam_bonds.hpp). The turns of both ends are solved for to
     // 1e-13 of the moments without yielding, each at its own axis.
     const double tolerance = 1e-12 * kModulus * inertia * 12.0 * first;
     EXPECT_NEAR(forces.moment_a.z(), moment, tolerance) << multiple;

@@ -52,7 +52,7 @@ Eigen::MatrixXd stiffness_of(const Scene& scene) {
   return 0.5 * (stiffness + stiffness.transpose());
 }
 
-/// Of some of the six motions of each node, those from the fourth on times a factor.
+/// Largest eigenvalue for some of the six motions of each node, those from the fourth on times a factor.
 double largest_of(const Eigen::MatrixXd& stiffness, const std::vector<Eigen::Index>& motions,
                   double per_turn) {
   std::vector<Eigen::Index> all;
@@ -85,6 +85,7 @@ TEST(SheetBounds, AtRestAreThoseOfTheStiffnessMatrixOrAboveThem) {
     EXPECT_GE(in_plane, 0.5 * bounds.in_plane);
     const double turning = largest_of(stiffness, {5}, 1.0);
     EXPECT_LE(turning, (1.0 + kTolerance) * bounds.turning);
+    EXPECT_GE(turning, (0.5 - kTolerance) * bounds.turning);
     EXPECT_NEAR(bounds.gyration, 0.4 * 0.25 * kThickness * kThickness,
                 1e-15 * kThickness * kThickness);
   }
