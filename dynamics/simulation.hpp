@@ -154,6 +154,7 @@ class Simulation {
   const geometry::Elements& elements() const noexcept { return scene_.elements; }
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
+  /// All beams: dynamics/structure/beam_bonds.hpp, to be included by those who ask them.
   const BeamBonds& bonds() const noexcept { return *bonds_; }
   /// The bonds that yield or break, and which of them broke in the last step.
   const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }

@@ -8,6 +8,7 @@
 #include "geometry/primitives/elements.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
