@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 #include <utility>
 
 namespace plekton::test::allocation_test {
@@ -20,6 +22,18 @@ using dynamics::Simulation;
 constexpr contact::MaterialId kStructure{0};
 constexpr contact::MaterialId kGrains{1};
 
+/// Waits until the thread beside the caller has begun, if there is one: under a sanitizer a thread
+/// that begins allocates.
+void await_threads(geometry::ThreadPool& pool) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> has_begun = pool.thread_count() == 1;
+  while (!has_begun) {
+    pool.for_each_range(2, [&](std::size_t, std::size_t, int) {
+      if (std::this_thread::get_id() != caller) has_begun = true;
+    });
+  }
+}
+
 TEST(Allocation, IsCounted) {
   EXPECT_EQ(test::allocations_of([] { ::operator delete(::operator new(1)); }), 1u);
 }
@@ -30,6 +44,7 @@ TEST(Allocation, IsNoneInTheForcesOfBeams) {
   contact::NodeForces forces(scene.state.size());
   for (const int threads : {1, 2}) {
     geometry::ThreadPool pool(threads);
+    await_threads(pool);
 
     const std::size_t count = allocations_of([&] {
       bonds.advance(scene.state, pool);
@@ -71,6 +86,7 @@ TEST(Allocation, IsNoneInTheForcesOfSheets) {
   contact::NodeForces forces(scene.state.size());
   for (const int threads : {1, 2}) {
     geometry::ThreadPool pool(threads);
+    await_threads(pool);
 
     const std::size_t count = allocations_of([&] {
       sheets.advance(scene.state, 0.0, pool);
