@@ -14,6 +14,7 @@ plekton_public_headers(public_headers
   contact/law_list.hpp
   contact/models.hpp
   contact/with_parts.hpp
+  dynamics/loads/applied_loads.hpp
   dynamics/output/csv_writer.hpp
   dynamics/output/pvd_series.hpp
   dynamics/output/scene_frame.hpp
@@ -24,6 +25,7 @@ plekton_public_headers(public_headers
   dynamics/structure/beam_bonds.hpp
   dynamics/structure/bonds_along.hpp
   dynamics/structure/membrane_force.hpp
+  dynamics/structure/sheet_facets.hpp
   geometry/mesh/generate/closed_tube.hpp
   geometry/mesh/generate/generators.hpp
   geometry/mesh/generate/lattice.hpp
@@ -35,6 +37,8 @@ plekton_public_headers(public_headers
   geometry/mesh/repair/remesh.hpp
   geometry/mesh/repair/repair.hpp
   geometry/mesh/repair/reshape.hpp
+  geometry/neighbor/cell_neighbours.hpp
+  geometry/neighbor/neighbours.hpp
   geometry/queries.hpp
   geometry/version.hpp)
 foreach(header IN LISTS public_headers)

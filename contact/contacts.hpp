@@ -7,8 +7,7 @@
 #include "contact/tracking/contact_record.hpp"
 #include "geometry/base/function_ref.hpp"
 #include "geometry/base/thread_pool.hpp"
-#include "geometry/neighbor/cell_neighbours.hpp"
-#include "geometry/neighbor/neighbours.hpp"
+#include "geometry/critical/product_features.hpp"
 #include "geometry/primitives/proximity.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
@@ -18,8 +17,10 @@
 #include <vector>
 
 namespace plekton::geometry {
+class CellNeighbours;
+class Neighbours;
 class StateArchive;
-}
+}  // namespace plekton::geometry
 
 namespace plekton::contact {
 

@@ -8,6 +8,7 @@
 #include "dynamics/carry_over/places_check.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/contacts_then.hpp"
+#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/measures/fault_finder.hpp"
 #include "dynamics/measures/mean_carried.hpp"
 #include "dynamics/measures/plane_forces.hpp"
@@ -23,6 +24,7 @@
 #include "dynamics/model/scene_hash.hpp"
 #include "dynamics/scene_check.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 #include "geometry/base/state_archive.hpp"
@@ -65,9 +67,9 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
       contacts_(model(contact_scene(scene_, surface_, options.skin, options.self_contact))),
       bonds_(std::make_unique<BeamBonds>(scene_.bonds, scene_.state.size())),
       yielding_bonds_(scene_.bond_laws, scene_.bonds),
-      sheet_facets_(scene_.sheet_facets, scene_.state.size()),
+      sheet_facets_(std::make_unique<SheetFacets>(scene_.sheet_facets, scene_.state.size())),
       ties_(scene_),
-      loads_(scene_),
+      loads_(std::make_unique<AppliedLoads>(scene_)),
       driven_planes_(scene_.loads, scene_.planes),
       driven_bodies_(scene_, surface_),
       forces_(scene_.state.size()),
@@ -80,7 +82,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   nodes_.share(contacts_->shared_motion(), acted_on(scene_));
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
   leave_out_absent();
-  loads_.start(scene_.state);
+  loads_->start(scene_.state);
   rigid_bodies_.start(scene_.state, scene_.properties);
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_->tune_skin(pace_radius_);
@@ -91,9 +93,9 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   yielding_bonds_.advance(*bonds_, scene_.state, 0.0, pool_);
   yielding_bonds_.forget_dissipated();
-  sheet_facets_.advance(scene_.state, 0.0, pool_);
-  sheet_facets_.tear(scene_.state.position, pool_);
-  sheet_facets_.forget_dissipated();
+  sheet_facets_->advance(scene_.state, 0.0, pool_);
+  sheet_facets_->tear(scene_.state.position, pool_);
+  sheet_facets_->forget_dissipated();
   follow_breaks();
   bonds_->advance(scene_.state, pool_);
   ties_.advance(scene_.state.position);
@@ -104,13 +106,13 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   nodes_.know_all();
   bonds_->add_forces(forces_, pool_);
   ties_.add_forces(forces_);
-  sheet_facets_.add_forces(forces_, pool_);
+  sheet_facets_->add_forces(forces_, pool_);
   set_first_step(options.time_step);
   forces_.set_zero();
   initial_moment_ = free_moment(0.0);
   const double kinetic = moving_energy();
   ledger_.start(kinetic, kinetic + contacts_->elastic_energy() + bonds_->elastic_energy() +
-                             ties_.elastic_energy() + sheet_facets_.elastic_energy());
+                             ties_.elastic_energy() + sheet_facets_->elastic_energy());
 }
 
 /// @param asked  s; 0: chosen
@@ -184,15 +186,15 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
 void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
   require_own_force(nodes, force, rigid_nodes_, scene_.state.size());
   nodes_.act_on(nodes);
-  loads_.add(std::move(nodes), std::move(force));
+  loads_->add(std::move(nodes), std::move(force));
 }
 
 void Simulation::set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
-  loads_.set_force(load, force, torque);
+  loads_->set_force(load, force, torque);
 }
 
 void Simulation::set_pressure(std::size_t load, double pressure) {
-  loads_.set_pressure(load, pressure);
+  loads_->set_pressure(load, pressure);
   if (chooser_ != nullptr) chooser_->look_again();
 }
 
@@ -219,15 +221,15 @@ double Simulation::motion_ratio() const {
 }
 
 Resistance Simulation::resistance() const noexcept {
-  return {scene_,        surface_, *contacts_, *bonds_,     yielding_bonds_,
-          sheet_facets_, ties_,    loads_,     rigid_nodes_};
+  return {scene_,         surface_, *contacts_, *bonds_,     yielding_bonds_,
+          *sheet_facets_, ties_,    *loads_,    rigid_nodes_};
 }
 
 /// @param dt  s, the longest step before the look; infinite: the first one is to be chosen
 Pace Simulation::pace(double dt) const noexcept {
   const TimeSpan until_next_look{time_, time_ + longest_to_next_look(dt)};
   return {steps_,
-          std::max({largest_speed(scene_.state), loads_.largest_speed(until_next_look),
+          std::max({largest_speed(scene_.state), loads_->largest_speed(until_next_look),
                     driven_planes_.largest_speed_of_others(scene_.planes),
                     driven_planes_.largest_speed(until_next_look), driven_bodies_.largest_speed()}),
           largest_gravity()};
@@ -250,7 +252,7 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
   step.external -= lengths.kick * power_on_turning_;
   for (std::size_t i = 0; i < plane_reactions_.size(); ++i)
     step.external -= lengths.kick * plane_reactions_[i].push * scene_.planes[i].widening;
-  const LoadWork left = loads_.work_after({time_, last_drift_, drift_}, scene_.state, pool_);
+  const LoadWork left = loads_->work_after({time_, last_drift_, drift_}, scene_.state, pool_);
   ledger_.book(step, lengths, left, last_drift_ == 0.0);
   fastest_ = std::sqrt(work.fastest_squared);
   fastest_spin_ = std::sqrt(work.fastest_spin_squared);
@@ -274,14 +276,14 @@ Energy Simulation::energy() const {
   Energy energy = ledger_.energy();
   energy.contact_elastic = contacts_->elastic_energy();
   energy.bond_elastic = bonds_->elastic_energy() + ties_.elastic_energy();
-  energy.sheet_elastic = sheet_facets_.elastic_energy();
+  energy.sheet_elastic = sheet_facets_->elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_->dissipated();
   energy.tracking += contacts_->tracking_loss();
   energy.bond_dissipated = energy.bond_dissipated + yielding_bonds_.dissipated() +
-                           sheet_facets_.dissipated() + ties_.dissipated();
+                           sheet_facets_->dissipated() + ties_.dissipated();
   energy.rounding = rounding_energy({scene_.state, scene_.properties, forces_, full_gravity_,
                                      initial_stiffness_, last_drift_, steps_});
   return energy;
@@ -318,10 +320,10 @@ void Simulation::choose_step() {
 /// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
-  asked_breaks_.break_all(*bonds_, sheet_facets_, scene_.state, last_drift_, ledger_);
+  asked_breaks_.break_all(*bonds_, *sheet_facets_, scene_.state, last_drift_, ledger_);
   yielding_bonds_.advance(*bonds_, scene_.state, last_drift_, pool_);
-  sheet_facets_.advance(scene_.state, last_drift_, pool_);
-  sheet_facets_.tear(scene_.state.position, pool_);
+  sheet_facets_->advance(scene_.state, last_drift_, pool_);
+  sheet_facets_->tear(scene_.state.position, pool_);
   follow_breaks();
   find_contacts();
   if (chooser_ != nullptr && chooser_->is_due(steps_, dt_, fastest_spin_)) choose_step();
@@ -330,7 +332,7 @@ void Simulation::advance(double longest) {
   bonds_->add_forces(forces_, pool_);
   ties_.advance(scene_.state.position);
   ties_.add_forces(forces_);
-  sheet_facets_.add_forces(forces_, pool_);
+  sheet_facets_->add_forces(forces_, pool_);
   if (MomentumBalance::is_due(steps_)) watch_momentum();
   apply_loads();
   if (!late_starts_.empty()) put_back_late_starts();
@@ -416,7 +418,7 @@ void Simulation::watch_momentum() {
   double carried = 0.0;
   if (steps_ % (kLooks * MomentumBalance::kStepsBetweenLooks) == 0) {
     const double elastic = std::abs(contacts_->elastic_energy()) + bonds_->elastic_energy() +
-                           sheet_facets_.elastic_energy() + ties_.elastic_energy();
+                           sheet_facets_->elastic_energy() + ties_.elastic_energy();
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
   momentum_.look({scene_.state.position, forces_, *contacts_, ties_, carried,
@@ -438,12 +440,12 @@ double Simulation::largest_gravity() const noexcept {
 
 void Simulation::apply_loads() {
   follow_gravity();
-  loads_.look_at(yielding_bonds_);
-  if (loads_.may_look_at_all()) nodes_.know_all();
+  loads_->look_at(yielding_bonds_);
+  if (loads_->may_look_at_all()) nodes_.know_all();
   const LoadStep step{time_, last_drift_, drift_};
-  LoadWork work = loads_.add_forces(step, scene_.state, forces_, pool_);
+  LoadWork work = loads_->add_forces(step, scene_.state, forces_, pool_);
   rigid_bodies_.gather(scene_.state, forces_, scene_.properties, pool_);
-  loads_.move(step, scene_.state, forces_, pool_, work);
+  loads_->move(step, scene_.state, forces_, pool_, work);
   ledger_.add_external(work.external);
   ledger_.add_damped(work.damped);
   if (!driven_bodies_.empty()) drive_bodies(step);
@@ -537,12 +539,12 @@ void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
 /// because they yielded, tore or were asked to. Linear in the scene where elements are gone; that
 /// step may allocate.
 void Simulation::follow_breaks() {
-  const bool are_whole = yielding_bonds_.broken().empty() && sheet_facets_.broken().empty();
+  const bool are_whole = yielding_bonds_.broken().empty() && sheet_facets_->broken().empty();
   if (asked_breaks_.empty() && are_whole) return;
-  loads_.follow(*bonds_, sheet_facets_);
+  loads_->follow(*bonds_, *sheet_facets_);
   if (surface_.cell_count() > 0) {
-    asked_breaks_.add_broken(yielding_bonds_, sheet_facets_);
-    if (take_out_broken(scene_, asked_breaks_.parts(), *bonds_, sheet_facets_)) follow_surface();
+    asked_breaks_.add_broken(yielding_bonds_, *sheet_facets_);
+    if (take_out_broken(scene_, asked_breaks_.parts(), *bonds_, *sheet_facets_)) follow_surface();
   }
   asked_breaks_.clear();
 }
@@ -552,7 +554,7 @@ void Simulation::follow_breaks() {
 void Simulation::follow_surface() {
   const geometry::Surface before =
       change_surface(surface_.left_with(scene_.elements.cylinders, scene_.elements.facets));
-  loads_.follow(geometry::SurfaceChange(before, surface_));
+  loads_->follow(geometry::SurfaceChange(before, surface_));
   ties_.follow(scene_.elements);
 }
 
@@ -625,7 +627,7 @@ ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Ve
     is_inside[index_of(node)] = 1;
   }
   return dynamics::section_force(is_inside, state_before(scene_.state, last_drift_), *bonds_,
-                                 sheet_facets_, about);
+                                 *sheet_facets_, about);
 }
 
 double Simulation::unbalanced_force_ratio() const {
@@ -697,8 +699,8 @@ void Simulation::exchange_kept(const geometry::StateArchive& archive) {
   exchange_motion(archive);
   bonds_->exchange(archive.group("bonds"));
   yielding_bonds_.exchange(archive.group("yield"));
-  sheet_facets_.exchange(archive.group("sheets"));
-  if (archive.is_reading()) loads_.follow(*bonds_, sheet_facets_);
+  sheet_facets_->exchange(archive.group("sheets"));
+  if (archive.is_reading()) loads_->follow(*bonds_, *sheet_facets_);
   if (!ties_.empty()) ties_.exchange(archive.group("ties"));
   if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
   asked_breaks_.exchange(archive.group("asked_breaks"), bonds_->size(), scene_.state.size());
@@ -735,7 +737,7 @@ void Simulation::exchange_last_step(const geometry::StateArchive& archive) {
 
 /// What the last step found of loads, and what has been set of them since the start.
 void Simulation::exchange_loads(const geometry::StateArchive& archive) {
-  loads_.exchange(archive);
+  loads_->exchange(archive);
   driven_planes_.exchange(archive.group("planes"), scene_.planes.size());
   driven_bodies_.exchange(archive.group("bodies"));
   scene_.loads.servos = driven_planes_.servos();
@@ -867,7 +869,7 @@ void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& pl
     change_surface(part(scene_.elements));
     ledger_.add_taken_out(contacts_->tracking_loss() - tracking);
   }
-  if (others) loads_.follow(geometry::SurfaceChange(made, surface_));
+  if (others) loads_->follow(geometry::SurfaceChange(made, surface_));
   const double from_outside = contact_energy_between() - energy_before;
   ledger_.bring(from_outside, from_outside - (contacts_->elastic_energy() - stored));
 }

@@ -7,7 +7,7 @@
 #include "dynamics/carry_over/scene_change.hpp"
 #include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "dynamics/integrators/nodes_of_ranks.hpp"
-#include "dynamics/loads/applied_loads.hpp"
+#include "dynamics/loads/own_force.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/rigid_servo.hpp"
 #include "dynamics/measures/bond_stress.hpp"
@@ -21,7 +21,6 @@
 #include "dynamics/simulation_options.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
 #include "dynamics/ties/ties.hpp"
 #include "dynamics/time_step/exact_step.hpp"
@@ -41,8 +40,10 @@
 
 namespace plekton::dynamics {
 
+class AppliedLoads;
 class BeamBonds;
 class FaultFinder;
+class SheetFacets;
 class StepChooser;
 class StepLimits;
 struct Pace;
@@ -160,12 +161,12 @@ class Simulation {
   const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }
   /// What a bond carries where its nodes are now.
   BondForces bond_forces(std::size_t bond) const;
-  const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
+  const SheetFacets& sheet_facets() const noexcept { return *sheet_facets_; }
   /// By place in Scene::ties: what they carry, have slid and taken.
   const Ties& ties() const noexcept { return ties_; }
   /// By place in Scene::rigid_bodies: their angular momenta.
   const RigidBodies& rigid_bodies() const noexcept { return rigid_bodies_; }
-  const AppliedLoads& loads() const noexcept { return loads_; }
+  const AppliedLoads& loads() const noexcept { return *loads_; }
   const contact::Contacts& contacts() const noexcept { return *contacts_; }
   /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
   const NodeForces& forces() const {
@@ -353,9 +354,9 @@ class Simulation {
   std::unique_ptr<contact::Contacts> contacts_;
   std::unique_ptr<BeamBonds> bonds_;
   YieldingBonds yielding_bonds_;
-  SheetFacets sheet_facets_;
+  std::unique_ptr<SheetFacets> sheet_facets_;
   Ties ties_;
-  AppliedLoads loads_;
+  std::unique_ptr<AppliedLoads> loads_;
   DrivenPlanes driven_planes_;
   DrivenBodies driven_bodies_;
   BodyPress body_press_;                        ///< working space, to drive bodies

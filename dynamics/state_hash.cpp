@@ -2,6 +2,7 @@
 #include "dynamics/state_hash.hpp"
 
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/base/bit_hash.hpp"
 
 namespace plekton::dynamics {

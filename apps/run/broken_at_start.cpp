@@ -2,6 +2,7 @@
 #include "apps/run/broken_at_start.hpp"
 
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 #include "dynamics/output/file.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/structure/bonds_along.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "apps/run/history.hpp"
 
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
 #include <array>
 #include <string>

@@ -2,6 +2,7 @@
 #include "apps/run/pressures.hpp"
 
 #include "apps/scenario/staged_scenario.hpp"
+#include "dynamics/loads/applied_loads.hpp"
 
 #include <algorithm>
 #include <array>

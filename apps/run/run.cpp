@@ -36,6 +36,7 @@
 #include "geometry/base/sign_totals.hpp"
 #include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 
 #include <fmt/format.h>
 

@@ -40,7 +40,7 @@ struct Plane {
     const Vec3 way = from_middle(x);
     const double distance = way.norm();
     if (distance > 0.0) return way / -distance;
-    return form == Form::cylinder ? Vec3(axis.unitOrthogonal()) : Vec3(Vec3::UnitZ());
+    return normal_in_the_middle();
   }
   /// m, the point of the wall that is nearest to a place.
   Vec3 foot(const Vec3& x) const noexcept { return x - height(x) * normal_at(x); }
@@ -77,6 +77,8 @@ struct Plane {
   }
 
  private:
+  /// Unit, any one of those that are nearest to the middle of a container.
+  Vec3 normal_in_the_middle() const noexcept;
   /// m, from the axis of a cylinder or the centre of a ball.
   Vec3 from_middle(const Vec3& x) const noexcept {
     const Vec3 way = x - point;

@@ -3,7 +3,6 @@
 
 #include "dynamics/state/node_state.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -12,7 +11,7 @@
 namespace plekton::dynamics {
 
 /// The nodes of many groups of N nodes, and in which groups each of them is: to sum over the groups
-/// of a node in a fixed order.
+/// of a node in a fixed order. There are those of pairs and of corners of facets.
 template <std::size_t N>
 class NodeMembers {
  public:
@@ -24,21 +23,7 @@ class NodeMembers {
     std::size_t place;  ///< in the group
   };
 
-  explicit NodeMembers(std::vector<Group> groups) : groups_(std::move(groups)) {
-    std::vector<std::pair<NodeId, std::size_t>> slots;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      for (std::size_t k = 0; k < N; ++k) slots.emplace_back(groups_[g][k], g * N + k);
-    }
-    std::sort(slots.begin(), slots.end());
-    for (const auto& [node, slot] : slots) {
-      if (nodes_.empty() || nodes_.back() != node) {
-        nodes_.push_back(node);
-        start_.push_back(members_.size());
-      }
-      members_.push_back({slot / N, slot % N});
-    }
-    start_.push_back(members_.size());
-  }
+  explicit NodeMembers(std::vector<Group> groups);
 
   const std::vector<Group>& groups() const noexcept { return groups_; }
   /// Each once, ascending.
@@ -54,5 +39,8 @@ class NodeMembers {
   std::vector<std::size_t> start_;
   std::vector<Member> members_;
 };
+
+extern template class NodeMembers<2>;
+extern template class NodeMembers<3>;
 
 }  // namespace plekton::dynamics

@@ -27,4 +27,12 @@ void require_own_force(const std::vector<NodeId>& nodes, const OwnForce& force,
                                 " is there twice; name each once");
 }
 
+LoadedNodes& OwnForcedNodes::act(const LoadStep& step, const NodeState& state,
+                                 geometry::ThreadPool& pool) {
+  forces_.assign(nodes_.size(), {Vec3::Zero(), Vec3::Zero()});
+  force_(step.time, state, forces_);
+  nodes_.set(pool, [&](std::size_t i) { return forces_[i]; });
+  return nodes_;
+}
+
 }  // namespace plekton::dynamics

@@ -31,12 +31,7 @@ class OwnForcedNodes {
   OwnForcedNodes(std::vector<NodeId> nodes, OwnForce force)
       : force_(std::move(force)), forces_(nodes.size()), nodes_(std::move(nodes)) {}
 
-  LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool) {
-    forces_.assign(nodes_.size(), {Vec3::Zero(), Vec3::Zero()});
-    force_(step.time, state, forces_);
-    nodes_.set(pool, [&](std::size_t i) { return forces_[i]; });
-    return nodes_;
-  }
+  LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
   LoadedNodes& nodes() noexcept { return nodes_; }
 
  private:

@@ -12,6 +12,10 @@
 
 namespace plekton::dynamics {
 
+Mat3 along_and_across(const Vec3& n, double along, double across) noexcept {
+  return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
+}
+
 SpringEnd on_body(const SpringEnd& end, const RigidNodes* rigid) noexcept {
   if (rigid == nullptr || rigid->body_followed_by(end.node) < 0) return end;
   return {rigid->mover_of(end.node), end.weight, end.arm, rigid->lever_of(end.node)};

@@ -18,9 +18,7 @@ constexpr double kSafety = 0.65;
 constexpr double kLargestStep = 0.8;
 
 /// c n n + t (I - n n), n a unit vector.
-inline Mat3 along_and_across(const Vec3& n, double along, double across) noexcept {
-  return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
-}
+Mat3 along_and_across(const Vec3& n, double along, double across) noexcept;
 
 /// Largest time step at which the leapfrog is stable, or a little less, and who limits it.
 struct CriticalStep {

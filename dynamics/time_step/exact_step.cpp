@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/exact_step.hpp"
 
+#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/state/rotation_step.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 
 #include <algorithm>

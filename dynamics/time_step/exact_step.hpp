@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/stiffness/contact_springs.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/ties/ties.hpp"
 
 #include <functional>
 #include <limits>
 
 namespace plekton::dynamics {
+
+class AppliedLoads;
+class BeamBonds;
+class SheetFacets;
 
 /// Critical time step of a scene as it is, from the highest frequency of all its motions together.
 struct ExactStep {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/benchmarks/measurement.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/moving_scene.hpp"
 
 #include <gtest/gtest.h>

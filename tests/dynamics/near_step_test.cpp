@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/models.hpp"
+#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/named_laws.hpp"
 #include "tests/support/seeded_random.hpp"

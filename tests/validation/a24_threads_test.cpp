@@ -4,6 +4,7 @@
 #include "dynamics/structure/beam_bonds.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "tests/benchmarks/geometry/broad_phase_share.hpp"
 
 #include "dynamics/simulation.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/counting/ring_flows.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/moving_scene.hpp"
 

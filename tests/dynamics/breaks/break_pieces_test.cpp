@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What becomes of structures that fall apart, and of what acts on them.
+#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
 #include "dynamics/time_step/motion_step.hpp"
 #include "tests/support/breaking_net.hpp"

@@ -2,6 +2,7 @@
 // Sheets that tear, and elements that are broken by name.
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"
 #include "tests/support/free_collision.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/surface_pressure.hpp"
 
+#include "dynamics/loads/applied_loads.hpp"
 #include "tests/support/loaded_scene.hpp"
 #include "tests/support/seeded_random.hpp"
 
