@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/beam_structure.hpp"
