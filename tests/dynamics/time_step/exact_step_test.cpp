@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/exact_step.hpp"
 
+#include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/beam_bonds.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/linear_algebra.hpp"
