@@ -3,6 +3,7 @@
 
 #include "contact/base/bodies.hpp"
 #include "contact/base/motion.hpp"
+#include "contact/base/plane_action.hpp"
 #include "contact/law/pair_springs.hpp"
 #include "contact/tracking/contact_record.hpp"
 #include "geometry/base/function_ref.hpp"
@@ -135,8 +136,6 @@ class Contacts {
   /// that contacts did to the nodes.
   /// @param x  m, where the nodes were in that step
   virtual void for_each_record(Positions x, Visit<const ContactRecord&> visit) const = 0;
-  /// The same of contacts with planes alone.
-  virtual void for_each_plane_record(Positions x, Visit<const ContactRecord&> visit) const = 0;
   /// Calls visit(row, force (N), torque (N m)) for contacts between structures, with what each did
   /// to one node.
   virtual void for_each_structure_record_on(
@@ -149,11 +148,8 @@ class Contacts {
   /// Adds what contacts of spheres with surfaces did.
   virtual void add_sphere_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const = 0;
 
-  /// Force (N) of all bodies on a plane in the last step.
-  virtual Vec3 force_on_plane(std::size_t plane) const = 0;
-  /// Calls visit(plane, force (N) on it, how much of it (N) is out of the space of the bodies) for
-  /// every contact of the last step with a plane, in a fixed order.
-  virtual void for_each_plane_force(Visit<std::size_t, const Vec3&, double> visit) const = 0;
+  /// What all bodies did to a plane in the last step, if there was any. Of ranks all have to ask.
+  virtual const PlaneAction& on_plane(std::size_t plane) const = 0;
 
   /// Bonds between structures that hold.
   virtual std::size_t structure_bond_count() const = 0;

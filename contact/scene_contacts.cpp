@@ -148,15 +148,23 @@ bool SceneContacts::look_at_lists(const Motion& motion, geometry::ThreadPool& po
   return neighbours_.is_due(motion.position, pool, motion.max_displacement, &known);
 }
 
-/// What meets planes and surfaces is computed by all ranks.
+/// What meets surfaces is computed by all ranks.
 void SceneContacts::share_out() {
   is_shared_out_ = true;
-  if (shared_motion() == nullptr) return;
-  std::vector<NodeId> met;
-  for (const auto pairs : {plane_neighbours_.pairs(), neighbours_.sphere_structures()})
-    for (const geometry::IndexPair& pair : pairs)
+  if (const SharedMotion* const shared = shared_motion()) {
+    std::vector<NodeId> met;
+    const auto add = [&](const geometry::IndexPair& pair) {
       met.push_back(spheres_[static_cast<std::size_t>(pair.a)].node);
-  with_spheres_.share_out(met);
+    };
+    std::ranges::for_each(neighbours_.sphere_structures(), add);
+    for (const geometry::IndexPair& pair : plane_neighbours_.pairs())
+      if (shared->keeps_common_near(static_cast<std::size_t>(pair.b)) ||
+          spheres_[static_cast<std::size_t>(pair.a)].rigid_body >= 0)
+        add(pair);
+    with_spheres_.share_out(met);
+  }
+  with_planes_.share_out(spheres_,
+                         {&with_spheres_.blocks(), with_spheres_.holders(), shared_motion()});
 }
 
 /// The first step is over: the contacts listed go on with the parameters of later ones.
@@ -199,7 +207,7 @@ void SceneContacts::exchange(const geometry::StateArchive& archive, std::span<co
   exchange_sums(archive);
   exchange_of_spheres(archive, pool);
   exchange_of_structures(archive, pool);
-  exchange_of_planes(archive, planes, pool);
+  exchange_of_planes(archive, planes);
 }
 
 void SceneContacts::exchange_sums(const geometry::StateArchive& archive) {
@@ -233,12 +241,13 @@ void SceneContacts::exchange_of_structures(const geometry::StateArchive& archive
 }
 
 void SceneContacts::exchange_of_planes(const geometry::StateArchive& archive,
-                                       std::span<const Plane> planes, geometry::ThreadPool& pool) {
+                                       std::span<const Plane> planes) {
   plane_neighbours_.exchange(archive.group("plane_neighbours"), spheres_.size(), planes.size());
-  with_planes_.exchange(
-      archive.group("planes"),
-      [&] { with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs); },
-      pool);
+  with_planes_.exchange(archive.group("planes"), planes.size(), [&] {
+    with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
+  });
+  if (archive.is_reading())
+    with_planes_.share_out(spheres_, {&with_spheres_.blocks(), {}, nullptr});
 }
 
 void SceneContacts::exchange_start(const geometry::StateArchive& archive) {
@@ -314,10 +323,11 @@ void SceneContacts::take_over(Contacts& other, const BodyPlaces& places,
   }
   plane_neighbours_.expire(neighbours_.skin());
   plane_neighbours_.update(spheres_, planes, x);
-  with_planes_.take_over(
-      before.with_planes_, places_at_planes(before, places), places.planes,
-      [&] { with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs); },
-      pool);
+  with_planes_.take_over(before.with_planes_, places_at_planes(before, places), places.planes, [&] {
+    with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
+  });
+  with_planes_.share_out(spheres_, {&with_spheres_.blocks(), {}, nullptr});
+  with_planes_.add_up_actions(x, planes);
 }
 
 }  // namespace plekton::contact

@@ -83,9 +83,6 @@ class SceneContacts final : public Contacts {
     between_structures_.for_each_record(x, visit);
     with_planes_.for_each_record(x, structure_of_sphere_, visit);
   }
-  void for_each_plane_record(Positions x, Visit<const ContactRecord&> visit) const override {
-    with_planes_.for_each_record(x, structure_of_sphere_, visit);
-  }
   void for_each_structure_record_on(
       NodeId node, Positions x,
       Visit<const ContactRecord&, const Vec3&, const Vec3&> visit) const override {
@@ -95,14 +92,13 @@ class SceneContacts final : public Contacts {
   void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const override {
     with_surfaces_.add_forces(forces, pool);
     between_structures_.add_forces(forces);
-    with_planes_.add_forces(forces, pool);
+    with_planes_.add_forces(forces);
   }
   void add_sphere_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const override {
     with_surfaces_.add_forces(forces, pool);
   }
-  Vec3 force_on_plane(std::size_t plane) const override { return with_planes_.force_on(plane); }
-  void for_each_plane_force(Visit<std::size_t, const Vec3&, double> visit) const override {
-    with_planes_.for_each_force(visit);
+  const PlaneAction& on_plane(std::size_t plane) const override {
+    return with_planes_.action_on(plane);
   }
   std::size_t structure_bond_count() const override { return between_structures_.bond_count(); }
 
@@ -168,8 +164,7 @@ class SceneContacts final : public Contacts {
   void exchange_sums(const geometry::StateArchive& archive);
   void exchange_of_spheres(const geometry::StateArchive& archive, geometry::ThreadPool& pool);
   void exchange_of_structures(const geometry::StateArchive& archive, geometry::ThreadPool& pool);
-  void exchange_of_planes(const geometry::StateArchive& archive, std::span<const Plane> planes,
-                          geometry::ThreadPool& pool);
+  void exchange_of_planes(const geometry::StateArchive& archive, std::span<const Plane> planes);
   bool lists_same_spheres(const SceneContacts& before, const BodyPlaces& places) const;
   std::vector<std::int32_t> places_at_planes(const SceneContacts& before,
                                              const BodyPlaces& places) const;
@@ -192,7 +187,7 @@ class SceneContacts final : public Contacts {
   std::int64_t last_number_ = 0;
   std::int64_t list_count_ = 0;
   enum class Start { ahead, now, over } start_ = Start::ahead;
-  bool is_shared_out_ = false;         ///< what is on the lists of spheres now
+  bool is_shared_out_ = false;         ///< what is on the lists of spheres and planes now
   std::optional<bool> are_lists_due_;  ///< of spheres; nothing: was not asked in this step
 };
 

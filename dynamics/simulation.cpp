@@ -79,7 +79,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
       may_touch_(may_touch(scene_, surface_, options.self_contact)),
       full_gravity_(options.motion.gravity),
       momentum_(scene_.state.position) {
-  nodes_.share(contacts_->shared_motion(), acted_on(scene_));
+  nodes_.share(contacts_->shared_motion(), acted_on(scene_), servo_planes(scene_));
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
   leave_out_absent();
   loads_->start(scene_.state);
@@ -247,7 +247,7 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     const Vec3& velocity = scene_.planes[i].velocity;
     if (!velocity.isZero(0.0))
-      step.external -= lengths.kick * contacts_->force_on_plane(i).dot(velocity);
+      step.external -= lengths.kick * contacts_->on_plane(i).force.dot(velocity);
   }
   step.external -= lengths.kick * power_on_turning_;
   for (std::size_t i = 0; i < plane_reactions_.size(); ++i)
@@ -308,7 +308,7 @@ ExactStep Simulation::exact_critical_step() const {
 void Simulation::find_contacts() {
   if (contacts_->makes_lists(motion(), scene_.planes, pool_)) nodes_.know_all();
   contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
-  power_on_turning_ = power_on_turning(*contacts_, scene_.planes, scene_.state.position);
+  power_on_turning_ = power_on_turning(*contacts_, scene_.planes);
   nodes_.found_forces();
 }
 
@@ -421,7 +421,7 @@ void Simulation::watch_momentum() {
                            sheet_facets_->elastic_energy() + ties_.elastic_energy();
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
-  momentum_.look({scene_.state.position, forces_, *contacts_, ties_, carried,
+  momentum_.look({scene_.state.position, forces_, *contacts_, scene_.planes, ties_, carried,
                   0.5 * (last_drift_ + drift_), nodes_.shared()},
                  pool_);
 }
@@ -472,8 +472,8 @@ void Simulation::find_plane_reactions() {
   plane_reactions_.clear();
   const auto widens = [](const contact::Plane& plane) { return plane.widening != 0.0; };
   if (driven_planes_.empty() && std::ranges::none_of(scene_.planes, widens)) return;
-  plane_reactions_.resize(scene_.planes.size());
-  add_plane_reactions(*contacts_, plane_reactions_);
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i)
+    plane_reactions_.push_back({contacts_->on_plane(i).force, contacts_->on_plane(i).push});
 }
 
 void Simulation::drive_planes() {
@@ -599,13 +599,14 @@ std::vector<contact::ContactRecord> Simulation::contact_rows() const {
 
 ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
   require_index("plane_reaction", "plane", plane, scene_.planes.size());
-  return force_on_plane(*contacts_, force_positions(), plane, force_point(plane));
+  const contact::PlaneAction& action = contacts_->on_plane(plane);
+  return {action.force, action.moment};
 }
 
 double Simulation::pressing_on(std::size_t plane) const {
   require_index("pressing_on", "plane", plane, scene_.planes.size());
-  const PlaneReaction sum{plane_reaction(plane).force, push_on_plane(*contacts_, plane)};
-  return sum.pressing(scene_.planes[plane]);
+  const contact::PlaneAction& action = contacts_->on_plane(plane);
+  return PlaneReaction{action.force, action.push}.pressing(scene_.planes[plane]);
 }
 
 ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,

@@ -171,7 +171,7 @@ inline PullOut pulled_out(Kind kind, std::uint64_t seed, double time_step = kSte
     if (out < 0.5 * kPull) continue;
     ++samples;
     result.mean += result.shares.back();
-    result.pressure += simulation.contacts().force_on_plane(5).z() / (kLength * kWidth);
+    result.pressure += simulation.contacts().on_plane(5).force.z() / (kLength * kWidth);
   }
   result.steps = simulation.steps();
   result.mean /= samples;

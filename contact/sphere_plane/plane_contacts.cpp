@@ -2,6 +2,8 @@
 #include "contact/sphere_plane/plane_contacts.hpp"
 
 #include "contact/tracking/contact_state.hpp"
+#include "geometry/base/orderless_sum.hpp"
+#include "geometry/base/ranks.hpp"
 
 #include <algorithm>
 #include <map>
@@ -22,6 +24,8 @@ BodyPart part_of(const Plane& plane, const SphereBody& sphere) noexcept {
 double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
                               std::span<const SphereBody> spheres, std::span<const Plane> planes,
                               const MaterialPairs& materials) {
+  know_states();
+  pieces_.clear();
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Slot* old) {
     const SphereBody& sphere = spheres[static_cast<std::size_t>(keys[i].a)];
@@ -32,15 +36,22 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
       kept.parameters = parameters;
       return kept;
     }
-    return Slot{sphere.node, plane, sphere.radius, 0.0, parameters, {}, 0};
+    return Slot{sphere.node, false, plane, sphere.radius, parameters, {}};
   };
   rekey_(slots_, keys, make,
-         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory, {}); });
-  sphere_count_ = slots_.empty() ? 0 : spheres.size();
+         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.state.memory, {}); });
+  actions_.resize(planes.size());
   materials_ = &materials;
   find_bodies(keys, spheres, planes);
   share_masses_as_kept();
   return lost;
+}
+
+void PlaneContacts::share_out(std::span<const SphereBody> spheres, const SphereHolders& holders) {
+  know_states();
+  pieces_.assign(rekey_.keys(), spheres, holders);
+  outcomes_.assign(pieces_.pieces().size(), {});
+  actions_of_pieces_.assign(pieces_.planes().size(), {});
 }
 
 void PlaneContacts::find_bodies(std::span<const geometry::IndexPair> keys,
@@ -77,52 +88,67 @@ void PlaneContacts::share_masses(const Touches& touches) {
 
 /// As what touched in the last step.
 void PlaneContacts::share_masses_as_kept() {
-  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
+  share_masses([](const Slot& slot) { return slot.touches; });
 }
 
-bool PlaneContacts::touches(const Slot& slot, double height) const {
+bool PlaneContacts::touches(const Slot& slot, double height) {
   return height < slot.radius ||
-         goes_on<AnyLaw>(slot.parameters, slot.memory.history, height - slot.radius);
+         goes_on<AnyLaw>(slot.parameters, slot.state.memory.history, height - slot.radius);
 }
 
-/// Threads share out the spheres, not the contacts: those of a sphere are all of one thread, which
-/// adds their forces at once, and most spheres are of the thread that moves their nodes.
 double PlaneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                               geometry::ThreadPool& pool, NodeForces& forces) {
-  records_.reset(pool.thread_count());
-  if (slots_.empty()) return 0.0;
+  totals_ = {};
+  are_actions_known_ = false;
   share_masses([&](const Slot& slot) {
     return touches(slot, planes[slot.plane].height(motion.position[index_of(slot.node)]));
   });
-  return sum_(sphere_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
-    Records& records = records_.of_worker(worker);
-    const std::size_t old = records.count;
-    const double dissipated = advance_spheres(begin, end, motion, planes, dt, records);
-    for (std::size_t i = old; i < records.count; ++i) records.records[i].add_to(forces);
-    return dissipated;
+  const std::span<const PlanePieces::Piece> pieces = pieces_.pieces();
+  pool.for_each_range(pieces.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) {
+      outcomes_[k] = {};
+      outcomes_[k].dissipated = advance_piece(pieces[k], motion, planes, dt);
+      hand_over(pieces[k], forces, outcomes_[k]);
+      add_up_actions(pieces[k], motion.position, planes);
+    }
   });
+  BlockTotals of_own;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (!pieces[k].counts) continue;
+    of_own.dissipated.add(outcomes_[k].dissipated);
+    of_own.largest_ratio = std::max(of_own.largest_ratio, outcomes_[k].largest_ratio);
+    of_own.touching += outcomes_[k].touching;
+  }
+  if (SharedMotion* const motion_of_ranks = pieces_.motion()) {
+    motion_of_ranks->add_up(of_own, totals_);
+    known_ = Known::nothing;
+  } else {
+    totals_ = of_own;
+  }
+  return totals_.dissipated.value();
 }
 
-double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const Motion& motion,
-                                      std::span<const Plane> planes, double dt, Records& records) {
+double PlaneContacts::advance_piece(const PlanePieces::Piece& piece, const Motion& motion,
+                                    std::span<const Plane> planes, double dt) {
   double dissipated = 0.0;
   Touching touching;
   const auto flush = [&] {
-    if (touching.count > 0) dissipated += advance_touching(touching, motion, planes, dt, records);
+    if (touching.count > 0) dissipated += advance_touching(touching, motion, planes, dt);
     touching.count = 0;
     touching.all_have_images = true;
   };
-  const std::size_t last = rekey_.first_of(end);
-  for (std::size_t i = rekey_.first_of(begin); i < last; ++i) {
+  for (const std::uint32_t i : slots_of(piece)) {
     Slot& slot = slots_[i];
     const double height = planes[slot.plane].height(motion.position[index_of(slot.node)]);
-    if (touches(slot, height)) {
+    const bool has_touched = slot.touches;
+    slot.touches = touches(slot, height);
+    if (slot.touches) {
       if (slot.parameters.law != touching.law || touching.count == kBatchLanes) flush();
       touching.law = slot.parameters.law;
       touching.slot[touching.count] = i;
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
-    } else if (!slot.memory.is_new()) {
+    } else if (has_touched) {
       dissipated += end_contact(slot, height, planes[slot.plane], motion, dt);
     }
   }
@@ -130,34 +156,44 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
   return dissipated;
 }
 
-/// @returns the energy (J) that is lost
-double PlaneContacts::end_contact(Slot& slot, double height, const Plane& plane,
-                                  const Motion& motion, double dt) {
-  const double distance = height + slot.radius;
-  const auto pair = motion_of(slot, distance * slot.memory.normal, plane, motion)
-                        .at(slot.memory.normal, distance);
-  slot.id = 0;
-  return forget<AnyLaw>(slot.parameters, slot.memory, last_way(pair, dt));
+void PlaneContacts::hand_over(const PlanePieces::Piece& piece, NodeForces& forces,
+                              PieceOutcome& outcome) const {
+  for (const std::uint32_t i : slots_of(piece)) {
+    const Slot& slot = slots_[i];
+    if (!slot.touches) continue;
+    forces.force[index_of(slot.node)] -= slot.state.force;
+    forces.torque[index_of(slot.node)] += slot.state.torque_a;
+    outcome.largest_ratio = std::max(outcome.largest_ratio, -slot.state.gap / slot.radius);
+    ++outcome.touching;
+  }
 }
 
-double PlaneContacts::advance_touching(const Touching& touching, const Motion& motion,
-                                       std::span<const Plane> planes, double dt, Records& records) {
-  if (touching.law->advance_batch && touching.all_have_images) {
-    SphereBatch batch;
-    gather(touching, motion, planes, batch);
-    if (touching.law->advance_batch(batch, touching.count, dt))
-      return scatter(touching, batch, records);
+/// Both act at one point: about the sphere's centre what acts on the plane has the opposite of the
+/// torque on the sphere.
+void PlaneContacts::add_up_actions(const PlanePieces::Piece& piece, Positions x,
+                                   std::span<const Plane> planes) {
+  std::fill(actions_of_pieces_.begin() + piece.first, actions_of_pieces_.begin() + piece.last,
+            PlaneAction{});
+  for (std::uint32_t place = piece.begin; place < piece.end; ++place) {
+    const Slot& slot = slots_[pieces_.order()[place]];
+    if (!slot.touches) continue;
+    PlaneAction& action = actions_of_pieces_[pieces_.sum_of()[place]];
+    const Vec3 lever = x[index_of(slot.node)] - planes[slot.plane].point;
+    action.force += slot.state.force;
+    action.moment += lever.cross(slot.state.force) - slot.state.torque_a;
+    action.push += slot.state.force.dot(slot.state.memory.normal);
   }
-  double dissipated = 0.0;
-  for (std::size_t k = 0; k < touching.count; ++k)
-    dissipated += advance_one(touching.slot[k], touching.height[k], motion, planes, dt, records);
-  return dissipated;
+}
+
+void PlaneContacts::add_up_actions(Positions x, std::span<const Plane> planes) {
+  for (const PlanePieces::Piece& piece : pieces_.pieces()) add_up_actions(piece, x, planes);
+  are_actions_known_ = false;
 }
 
 /// To the kernel a plane is the mirror image of the sphere, moving and turning with the plane.
 /// @param separation  m, from the sphere's centre to its image
-SphereMotionOf<double> PlaneContacts::motion_of(const Slot& slot, const Vec3& separation,
-                                                const Plane& plane, const Motion& motion) {
+[[gnu::always_inline]] inline SphereMotionOf<double> PlaneContacts::motion_of(
+    const Slot& slot, const Vec3& separation, const Plane& plane, const Motion& motion) {
   const std::size_t node = index_of(slot.node);
   return {separation,
           plane.velocity_at(motion.position[node] + separation) - motion.velocity[node],
@@ -165,6 +201,31 @@ SphereMotionOf<double> PlaneContacts::motion_of(const Slot& slot, const Vec3& se
           plane.turning(),
           slot.radius,
           slot.radius};
+}
+
+/// @returns the energy (J) that is lost
+double PlaneContacts::end_contact(Slot& slot, double height, const Plane& plane,
+                                  const Motion& motion, double dt) {
+  const double distance = height + slot.radius;
+  ContactMemory<AnyLaw>& memory = slot.state.memory;
+  const auto pair =
+      motion_of(slot, distance * memory.normal, plane, motion).at(memory.normal, distance);
+  const double lost = forget<AnyLaw>(slot.parameters, memory, last_way(pair, dt));
+  slot.state = {};
+  return lost;
+}
+
+double PlaneContacts::advance_touching(const Touching& touching, const Motion& motion,
+                                       std::span<const Plane> planes, double dt) {
+  if (touching.law->advance_batch && touching.all_have_images) {
+    SphereBatch batch;
+    gather(touching, motion, planes, batch);
+    if (touching.law->advance_batch(batch, touching.count, dt)) return scatter(touching, batch);
+  }
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < touching.count; ++k)
+    dissipated += advance_one(slots_[touching.slot[k]], touching.height[k], motion, planes, dt);
+  return dissipated;
 }
 
 void PlaneContacts::gather(const Touching& touching, const Motion& motion,
@@ -183,28 +244,23 @@ void PlaneContacts::gather(const Touching& touching, const Motion& motion,
     batch.radius_b.set(k, spheres.radius_b);
     batch.parameters().set_numbers(k, slot.parameters.numbers.data(),
                                    touching.law->parameter_numbers);
-    batch.history().set_numbers(k, slot.memory.history.numbers.data(),
+    batch.history().set_numbers(k, slot.state.memory.history.numbers.data(),
                                 touching.law->history_numbers);
-    batch.normal.set(k, slot.memory.normal);
+    batch.normal.set(k, slot.state.memory.normal);
   }
 }
 
-double PlaneContacts::scatter(const Touching& touching, SphereBatch& batch, Records& records) {
+double PlaneContacts::scatter(const Touching& touching, SphereBatch& batch) {
   double dissipated = 0.0;
   for (std::size_t k = 0; k < touching.count; ++k) {
-    const std::size_t i = touching.slot[k];
-    Slot& slot = slots_[i];
-    slot.memory.history.law = touching.law;
-    batch.history().get_numbers(k, slot.memory.history.numbers.data(),
+    PairState& state = slots_[touching.slot[k]].state;
+    state.memory.history.law = touching.law;
+    batch.history().get_numbers(k, state.memory.history.numbers.data(),
                                 touching.law->history_numbers);
-    batch.normal.get(k, slot.memory.normal);
-    batch.gap.get(k, slot.gap);
-    PlaneForce& record = records.add(batch.overlap_ratio.number(k));
-    record.a = slot.node;
-    record.plane = slot.plane;
-    batch.force.get(k, record.force);
-    batch.torque_a.get(k, record.torque_a);
-    record.contact = i;
+    batch.normal.get(k, state.memory.normal);
+    batch.gap.get(k, state.gap);
+    batch.force.get(k, state.force);
+    batch.torque_a.get(k, state.torque_a);
     dissipated += batch.dissipated.number(k);
   }
   return dissipated;
@@ -212,9 +268,8 @@ double PlaneContacts::scatter(const Touching& touching, SphereBatch& batch, Reco
 
 /// The arithmetic of gather() and its kernel; beyond the mirror, where that has no image, the plane
 /// goes on pushing.
-double PlaneContacts::advance_one(std::size_t i, double height, const Motion& motion,
-                                  std::span<const Plane> planes, double dt, Records& records) {
-  Slot& slot = slots_[i];
+double PlaneContacts::advance_one(Slot& slot, double height, const Motion& motion,
+                                  std::span<const Plane> planes, double dt) {
   const Plane& plane = planes[slot.plane];
   const Vec3 normal = plane.normal_at(motion.position[index_of(slot.node)]);
   const Vec3 separation = -(height + slot.radius) * normal;
@@ -223,96 +278,213 @@ double PlaneContacts::advance_one(std::size_t i, double height, const Motion& mo
   const auto pair =
       motion_of(slot, separation, plane, motion)
           .at(is_before ? Vec3((1.0 / distance) * separation) : Vec3(-normal), distance);
-  slot.memory = {carried_history<AnyLaw>(slot.memory, pair.normal, dt * pair.twist_rate()),
-                 pair.normal};
+  PairState& state = slot.state;
+  state.memory = {carried_history<AnyLaw>(state.memory, pair.normal, dt * pair.twist_rate()),
+                  pair.normal};
   const SphereStepOf<double> step =
-      sphere_step<AnyLaw>(pair, slot.parameters, slot.memory.history, dt);
-  slot.gap = step.gap;
-  records.add(
-      {slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal - step.moment, i},
-      -step.gap / slot.radius);
+      sphere_step<AnyLaw>(pair, slot.parameters, state.memory.history, dt);
+  state.gap = step.gap;
+  state.force = step.force;
+  state.torque_a = step.arm_a * step.force_cross_normal - step.moment;
   return step.dissipated;
 }
 
-double PlaneContacts::elastic_energy() const {
-  double energy = 0.0;
-  records_.for_each([&](const PlaneForce& record) {
-    const Slot& slot = slots_[record.contact];
-    energy += AnyLaw::elastic_normal_energy(slot.parameters, slot.gap) +
-              AnyLaw::history_energy(slot.parameters, slot.memory.history);
-  });
-  return energy;
+void PlaneContacts::add_forces(NodeForces& forces) const {
+  know_states();
+  for (const Slot& slot : slots_) {
+    if (!slot.touches) continue;
+    forces.force[index_of(slot.node)] -= slot.state.force;
+    forces.torque[index_of(slot.node)] += slot.state.torque_a;
+  }
 }
 
-Vec3 PlaneContacts::force_on(std::size_t plane) const {
-  Vec3 force = Vec3::Zero();
-  records_.for_each([&](const PlaneForce& record) {
-    if (record.plane == plane) force += record.force;
+double PlaneContacts::elastic_energy() const {
+  struct Sum {
+    geometry::OrderlessSum energy;
+    Sum& operator+=(const Sum& other) noexcept {
+      energy += other.energy;
+      return *this;
+    }
+  };
+  Sum of_own, sum;
+  for (const PlanePieces::Piece& piece : pieces_.pieces()) {
+    if (!piece.counts) continue;
+    double of_piece = 0.0;
+    for (const std::uint32_t i : slots_of(piece)) {
+      const Slot& slot = slots_[i];
+      if (!slot.touches) continue;
+      of_piece += AnyLaw::elastic_normal_energy(slot.parameters, slot.state.gap) +
+                  AnyLaw::history_energy(slot.parameters, slot.state.memory.history);
+    }
+    of_own.energy.add(of_piece);
+  }
+  if (pieces_.motion() == nullptr) return of_own.energy.value();
+  pieces_.motion()->add_up(of_own, sum);
+  return sum.energy.value();
+}
+
+const PlaneAction& PlaneContacts::action_on(std::size_t plane) const {
+  static const PlaneAction kNone;
+  find_actions();
+  return plane < actions_.size() ? actions_[plane] : kNone;
+}
+
+void PlaneContacts::find_actions() const {
+  if (are_actions_known_) return;
+  are_actions_known_ = true;
+  sums_.assign(actions_.size(), {});
+  for (const PlanePieces::Piece& piece : pieces_.pieces()) {
+    if (!piece.counts) continue;
+    for (std::uint32_t i = piece.first; i < piece.last; ++i)
+      sums_[static_cast<std::size_t>(pieces_.planes()[i])].add(actions_of_pieces_[i]);
+  }
+  if (SharedMotion* const motion = pieces_.motion()) {
+    const std::vector<ActionSums> of_own = sums_;
+    sums_.assign(actions_.size(), {});
+    motion->add_up(std::span(of_own), std::span(sums_));
+  }
+  for (std::size_t plane = 0; plane < sums_.size(); ++plane) actions_[plane] = sums_[plane].total();
+}
+
+/// Which contacts of others touch, and how far.
+void PlaneContacts::know_gaps() const {
+  if (known_ != Known::nothing) return;
+  known_ = Known::gaps;
+  struct Told {
+    double gap;
+    std::uint64_t touches;
+  };
+  std::vector<Told> told;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (pieces_.teller(i) == SharedMotion::kCommon) continue;
+    told.push_back({slots_[i].state.gap, slots_[i].touches ? 1U : 0U});
+    places.push_back(i);
+  }
+  geometry::Ranks& ranks = pieces_.motion()->ranks();
+  geometry::share(ranks, room_, [&](const auto& visit_piece) {
+    for (std::size_t n = 0; n < told.size(); ++n)
+      visit_piece(pieces_.teller(places[n]), std::as_writable_bytes(std::span(&told[n], 1)));
   });
-  return force;
+  for (std::size_t n = 0; n < told.size(); ++n) {
+    if (pieces_.teller(places[n]) == ranks.rank()) continue;
+    Slot& slot = slots_[places[n]];
+    slot.touches = told[n].touches != 0;
+    if (slot.touches)
+      slot.state.gap = told[n].gap;
+    else
+      slot.state = {};
+  }
+}
+
+/// All that there is of them, some at a time, so that a message is not as large as the scene.
+void PlaneContacts::know_states() const {
+  if (known_ == Known::all) return;
+  know_gaps();
+  known_ = Known::all;
+  constexpr std::size_t kAtATime = geometry::Ranks::kUsualRoom / sizeof(PairState);
+  const auto is_told = [this](std::size_t i) {
+    return slots_[i].touches && pieces_.teller(i) != SharedMotion::kCommon;
+  };
+  for (std::size_t begin = 0, end = 0; begin < slots_.size(); begin = end) {
+    for (std::size_t count = 0; end < slots_.size() && count < kAtATime; ++end)
+      if (is_told(end)) ++count;
+    geometry::share(pieces_.motion()->ranks(), room_, [&](const auto& visit_piece) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (is_told(i))
+          visit_piece(pieces_.teller(i), std::as_writable_bytes(std::span(&slots_[i].state, 1)));
+    });
+  }
+  // Where a law is in memory, each process knows for itself.
+  for (Slot& slot : slots_)
+    if (slot.touches) slot.state.memory.history.law = slot.parameters.law;
+}
+
+void PlaneContacts::assign_ids(std::int64_t& last) {
+  know_states();
+  for (Slot& slot : slots_)
+    if (slot.touches && slot.state.id == 0) slot.state.id = ++last;
 }
 
 void PlaneContacts::for_each_record(Positions x, std::span<const geometry::StructureId> structures,
                                     VisitRecord visit) const {
-  records_.for_each([&](const PlaneForce& record) {
-    const Slot& slot = slots_[record.contact];
+  know_states();
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const Slot& slot = slots_[i];
+    if (!slot.touches) continue;
+    const PairState& state = slot.state;
     const geometry::Feature node(slot.node);
-    const std::int32_t sphere = rekey_.key(record.contact).a;
+    const std::int32_t sphere = rekey_.key(i).a;
     const geometry::StructureId structure = structures[static_cast<std::size_t>(sphere)];
     ContactRecord row;
-    row.id = slot.id;
+    row.id = state.id;
     // Spheres come first among the spheres.
     row.a = structure == geometry::StructureId{-1}
                 ? ContactBody{BodyKind::sphere, sphere, node}
                 : ContactBody{BodyKind::structure, static_cast<std::int32_t>(structure), node};
     row.b = {BodyKind::plane, static_cast<std::int32_t>(slot.plane), {}};
-    row.normal = slot.memory.normal;
-    row.gap = slot.gap;
-    const Vec3 lever = (slot.radius + 0.5 * slot.gap) * row.normal;
+    row.normal = state.memory.normal;
+    row.gap = state.gap;
+    const Vec3 lever = (slot.radius + 0.5 * state.gap) * row.normal;
     row.point_a = x[index_of(slot.node)];
-    row.point_b = row.point_a + (slot.radius + slot.gap) * row.normal;
+    row.point_b = row.point_a + (slot.radius + state.gap) * row.normal;
     row.point = row.point_a + lever;
-    set_force(row, record.force);
-    row.moment = AnyLaw::moment(slot.memory.history, row.normal);
-    set_state<AnyLaw>(row, slot.parameters, slot.memory.history,
-                      AnyLaw::elastic_normal_force(slot.parameters, slot.gap));
+    set_force(row, state.force);
+    row.moment = AnyLaw::moment(state.memory.history, row.normal);
+    set_state<AnyLaw>(row, slot.parameters, state.memory.history,
+                      AnyLaw::elastic_normal_force(slot.parameters, state.gap));
     visit(row);
-  });
+  }
 }
 
 // The state.
 
-void PlaneContacts::exchange(const geometry::StateArchive& archive,
-                             geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+void PlaneContacts::exchange(const geometry::StateArchive& archive, std::size_t plane_count,
+                             geometry::FunctionRef<void()> list) {
   double overlap_ratio = largest_overlap_ratio();
   archive("largest_overlap_ratio", overlap_ratio);
   std::vector<KeptPair> pairs;
   if (archive.is_reading()) {
-    begin_anew(list, pool);
+    begin_anew(list);
   } else {
     pairs = kept_pairs();
+    find_actions();
   }
+  actions_.resize(plane_count);
   std::size_t place = 0;
   archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& kept) {
     place = exchange_pair(row, kept, place);
-    if (row.is_reading()) keep(kept, place, overlap_ratio);
+    if (row.is_reading()) keep(kept, place);
     ++place;  // each pair touches once
   });
-  if (archive.is_reading()) share_masses_as_kept();
+  archive.rows("actions", actions_, [](geometry::RowFields& row, PlaneAction& action) {
+    row("force", action.force);
+    row("moment", action.moment);
+    row("push", action.push);
+  });
+  if (!archive.is_reading()) return;
+  archive.require(actions_.size() == plane_count, "actions");
+  totals_.largest_ratio = overlap_ratio;
+  totals_.touching = pairs.size();
+  share_masses_as_kept();
 }
 
 /// Of pairs that do not touch.
-void PlaneContacts::begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+void PlaneContacts::begin_anew(geometry::FunctionRef<void()> list) {
+  known_ = Known::all;
+  are_actions_known_ = true;
+  std::fill(actions_.begin(), actions_.end(), PlaneAction{});
+  totals_ = {};
   rekey_(
       slots_, {}, [](std::size_t, const Slot*) { return Slot{}; }, [](Slot&) {});
   list();
-  records_.reset(pool.thread_count());
 }
 
 void PlaneContacts::take_over(const PlaneContacts& before, std::span<const std::int32_t> spheres,
                               std::span<const std::int32_t> planes,
-                              geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
-  begin_anew(list, pool);
+                              geometry::FunctionRef<void()> list) {
+  begin_anew(list);
+  totals_.largest_ratio = before.largest_overlap_ratio();
   std::size_t place = 0;
   for (KeptPair& kept : before.kept_pairs()) {
     const geometry::IndexPair key{spheres[static_cast<std::size_t>(kept.pair[0])],
@@ -320,20 +492,18 @@ void PlaneContacts::take_over(const PlaneContacts& before, std::span<const std::
     if (key.a < 0 || key.b < 0) continue;
     place = next_place(place, slots_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
     if (place == slots_.size() || rekey_.key(place) != key) continue;
-    require_same_law(kept.memory.history, slots_[place].parameters.law);
-    keep(kept, place, before.largest_overlap_ratio());
+    require_same_law(kept.state.memory.history, slots_[place].parameters.law);
+    keep(kept, place);
+    ++totals_.touching;
   }
   share_masses_as_kept();
 }
 
 std::vector<PlaneContacts::KeptPair> PlaneContacts::kept_pairs() const {
+  know_states();
   std::vector<KeptPair> pairs;
-  records_.for_each([&](const PlaneForce& record) {
-    const Slot& slot = slots_[record.contact];
-    const geometry::IndexPair& key = rekey_.key(record.contact);
-    pairs.push_back(
-        {{key.a, key.b}, slot.gap, slot.memory, slot.id, record.force, record.torque_a});
-  });
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i].touches) pairs.push_back({{rekey_.key(i).a, rekey_.key(i).b}, slots_[i].state});
   return pairs;
 }
 
@@ -346,21 +516,17 @@ std::size_t PlaneContacts::exchange_pair(geometry::RowFields& row, KeptPair& kep
   const std::size_t place =
       next_place(from, slots_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
   if (place == slots_.size() || rekey_.key(place) != key) throw_unlisted_contact();
-  row("gap", kept.gap);
-  contact::exchange(row, kept.memory, slots_[place].parameters.law);
-  row("id", kept.id);
-  row("force", kept.force);
-  row("torque_a", kept.torque_a);
+  row("gap", kept.state.gap);
+  contact::exchange(row, kept.state.memory, slots_[place].parameters.law);
+  row("id", kept.state.id);
+  row("force", kept.state.force);
+  row("torque_a", kept.state.torque_a);
   return place;
 }
 
-void PlaneContacts::keep(const KeptPair& kept, std::size_t place, double overlap_ratio) {
-  Slot& slot = slots_[place];
-  slot.gap = kept.gap;
-  slot.memory = kept.memory;
-  slot.id = kept.id;
-  records_.of_worker(0).add({slot.node, slot.plane, kept.force, kept.torque_a, place},
-                            overlap_ratio);
+void PlaneContacts::keep(const KeptPair& kept, std::size_t place) {
+  slots_[place].state = kept.state;
+  slots_[place].touches = true;
 }
 
 }  // namespace plekton::contact

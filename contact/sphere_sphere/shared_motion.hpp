@@ -5,6 +5,7 @@
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "geometry/base/ranks.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,9 +26,9 @@ struct NodesInMotion {
 
 /// Which rank moves which nodes.
 ///
-/// A sphere with nothing but other spheres near it concerns few: it is *private* to the rank that
-/// has its block, which moves it, and tells those that have it as a ghost. All other nodes are
-/// *common*: all ranks find the forces on them and move them, as one process would. So whatever
+/// A sphere with nothing but other spheres and planes near it concerns few: it is *private* to the
+/// rank that has its block, which moves it, and tells those that have it as a ghost. All other nodes
+/// are *common*: all ranks find the forces on them and move them, as one process would. So whatever
 /// works on common nodes knows nothing of ranks; only what looks at all nodes has to ask for the
 /// private ones of others first (tell_all()).
 class SharedMotion {
@@ -38,13 +39,19 @@ class SharedMotion {
   void keep_common(std::vector<std::uint8_t> nodes) { kept_ = std::move(nodes); }
   /// These too, from the next assign() on, which is due then.
   void keep_common(std::span<const NodeId> nodes);
+  /// So are spheres near some planes, at which something looks in each step; from the next assign()
+  /// on. @param planes  by plane, 1 or 0
+  void keep_common_near(std::vector<std::uint8_t> planes) { kept_planes_ = std::move(planes); }
+  bool keeps_common_near(std::size_t plane) const noexcept {
+    return plane < kept_planes_.size() && kept_planes_[plane] != 0;
+  }
   /// Whether other nodes are kept than those that assign() knew of.
   bool is_due() const noexcept { return is_due_; }
 
   /// Takes the blocks of a new list. All ranks have to know all nodes.
   /// @param owners  by block
-  /// @param met     nodes of spheres that something else than spheres is near to; may be there
-  ///                several times
+  /// @param met     nodes of spheres that something is near to that makes them common; may be
+  ///                there several times
   void assign(const SphereBlocks& blocks, std::span<const int> owners, std::span<const NodeId> met);
   /// All nodes are common.
   void assign_nothing() noexcept;
@@ -52,6 +59,11 @@ class SharedMotion {
   geometry::Ranks& ranks() const noexcept { return *ranks_; }
   /// Whether any node is private.
   bool is_of_use() const noexcept { return !owners_.empty(); }
+  /// The rank that a node is private to; kCommon: it is common.
+  static constexpr std::int32_t kCommon = -1;
+  std::int32_t owner_of(NodeId node) const noexcept {
+    return owners_.empty() ? kCommon : owners_[index_of(node)];
+  }
 
   // Ascending.
   std::span<const NodeId> common() const noexcept { return common_; }
@@ -75,18 +87,21 @@ class SharedMotion {
   /// the order in which they are added.
   template <class Sums>
   void add_up(const Sums& of_own, Sums& sums) {
+    add_up(std::span(&of_own, 1), std::span(&sums, 1));
+  }
+  /// The same of several, each by itself. @param sums  as many
+  template <class Sums>
+  void add_up(std::span<const Sums> of_own, std::span<Sums> sums) {
     static_assert(std::is_trivially_copyable_v<Sums> && sizeof(Sums) % geometry::Ranks::kUnit == 0);
     const auto count = static_cast<std::size_t>(ranks_->count());
-    const std::vector<std::size_t> sizes(count, sizeof(Sums));
-    std::vector<Sums> of_ranks(count);
-    of_ranks[static_cast<std::size_t>(ranks_->rank())] = of_own;
+    const std::vector<std::size_t> sizes(count, of_own.size_bytes());
+    std::vector<Sums> of_ranks(count * of_own.size());
+    std::ranges::copy(of_own, of_ranks.begin() + ranks_->rank() * std::ssize(of_own));
     ranks_->gather(std::as_writable_bytes(std::span(of_ranks)), sizes);
-    for (const Sums& of_rank : of_ranks) sums += of_rank;
+    for (std::size_t i = 0; i < of_ranks.size(); ++i) sums[i % sums.size()] += of_ranks[i];
   }
 
  private:
-  static constexpr std::int32_t kCommon = -1;
-
   void find_owners(const SphereBlocks& blocks, std::span<const int> owners,
                    std::span<const NodeId> met);
   void find_ghosts(const SphereBlocks& blocks, std::span<const int> owners);
@@ -101,6 +116,7 @@ class SharedMotion {
 
   geometry::Ranks* ranks_;
   std::vector<std::uint8_t> kept_;
+  std::vector<std::uint8_t> kept_planes_;
   bool is_due_ = false;
   std::vector<std::int32_t> owners_;  ///< rank by node, or kCommon; empty: all are common
   std::vector<NodeId> common_;

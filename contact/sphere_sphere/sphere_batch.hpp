@@ -78,12 +78,11 @@ struct SphereBatch {
   NumberRows history() noexcept { return NumberRows(history_.data()); }
   RowsOf<Vec3> normal;  ///< unit, of the last step; zero before the first
   // Answers:
-  RowsOf<double> gap;            ///< m
-  RowsOf<Vec3> force;            ///< N, on b
-  RowsOf<Vec3> torque_a;         ///< N m, on a
-  RowsOf<double> dissipated;     ///< J
-  RowsOf<double> overlap_ratio;  ///< overlap over the radius of the smaller sphere
-  RowsOf<double> is_right;       ///< positive if these are the answers; see LaneStepOf
+  RowsOf<double> gap;         ///< m
+  RowsOf<Vec3> force;         ///< N, on b
+  RowsOf<Vec3> torque_a;      ///< N m, on a
+  RowsOf<double> dissipated;  ///< J
+  RowsOf<double> is_right;    ///< positive if these are the answers; see LaneStepOf
 
   /// One step of the first count pairs, W at a time; the lanes up to the next multiple of W hold
   /// any numbers.
@@ -126,7 +125,6 @@ PLEKTON_INLINE void SphereBatch::advance_lanes(std::size_t lane, double dt) noex
   if constexpr (HasMoments<Law>) torque = torque - answer.step.moment;
   torque_a.store(lane, torque);
   dissipated.store(lane, answer.step.dissipated);
-  overlap_ratio.store(lane, -answer.step.gap / answer.smaller_radius);
   is_right.store(lane, answer.is_right);
 }
 

@@ -84,8 +84,10 @@ class SphereBlocks {
   void exchange_order(const geometry::StateArchive& archive);
 
   std::span<const Block> blocks() const noexcept { return blocks_; }
-  /// How many spheres there are in blocks.
+  /// How many spheres there are in blocks: the first of the list.
   std::size_t sphere_count() const noexcept { return order_.size(); }
+  /// That owns one of these.
+  std::size_t block_of(std::int32_t sphere) const noexcept;
   /// Over all blocks.
   std::size_t member_count() const noexcept { return members_.size(); }
   /// The nodes, in order, that no block owns.
@@ -155,7 +157,6 @@ class SphereBlocks {
   void add_member(std::int32_t sphere, std::span<const SphereBody> spheres);
   void find_ghosts();
   void find_other_nodes(std::size_t node_count);
-  std::size_t block_of(std::int32_t sphere) const noexcept;
 
   std::vector<std::int32_t> order_;            ///< spheres along the curve
   std::vector<std::uint32_t> places_;          ///< by sphere: where it is in order_

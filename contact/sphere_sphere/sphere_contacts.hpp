@@ -31,10 +31,16 @@ class SphereContacts {
   /// it. What asks for contacts then has to be asked by all ranks.
   void share_among(geometry::Ranks& ranks) { shared_.emplace(ranks); }
   /// Shares out what there is on the lists: before the first step with them.
-  /// @param met  nodes of spheres that something else than spheres is near to
+  /// @param met  as SharedMotion::assign() has it
   void share_out(std::span<const NodeId> met);
   /// Which rank moves which nodes; nothing where this process computes all.
   SharedMotion* shared_motion() noexcept { return shared_ ? &shared_->motion() : nullptr; }
+
+  const SphereBlocks& blocks() const noexcept { return blocks_; }
+  /// The rank that computes each block; empty: this process computes all.
+  std::span<const int> holders() const noexcept {
+    return shared_ ? shared_->holders() : std::span<const int>();
+  }
 
   /// What each rank does alone; nothing where this process computes all.
   std::vector<RankShare> shares_of_ranks() const {

@@ -42,24 +42,6 @@ struct SurfaceForce {
   }
 };
 
-/// Force of a plane on a sphere.
-struct PlaneForce {
-  NodeId a;
-  std::size_t plane;
-  Vec3 force;     ///< N, on the plane
-  Vec3 torque_a;  ///< N m, on a
-  std::size_t contact;
-
-  void add_to(NodeForces& forces) const {
-    forces.force[index_of(a)] -= force;
-    forces.torque[index_of(a)] += torque_a;
-  }
-  template <class Owns>
-  void add_to(NodeForces& forces, Owns owns) const {
-    if (owns(a)) add_to(forces);
-  }
-};
-
 /// The records of all contacts of a kind, in the order of the contacts: those of the first worker
 /// first.
 template <class Record>

@@ -40,15 +40,7 @@ class Rekey {
  public:
   /// Of the thing at a place.
   const geometry::IndexPair& key(std::size_t place) const noexcept { return keys_[place]; }
-
-  /// The place of the first key of those whose first index is at least a.
-  std::size_t first_of(std::size_t a) const noexcept {
-    const auto is_before = [a](const geometry::IndexPair& key) {
-      return static_cast<std::size_t>(key.a) < a;
-    };
-    return static_cast<std::size_t>(std::partition_point(keys_.begin(), keys_.end(), is_before) -
-                                    keys_.begin());
-  }
+  std::span<const geometry::IndexPair> keys() const noexcept { return keys_; }
 
   /// @param things  by the keys of the last call, empty at first; afterwards by new_keys
   /// @param make    (place in new_keys, old thing of that key or nullptr) -> thing

@@ -18,7 +18,7 @@
 namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
-constexpr int kCheckpointVersion = 11;
+constexpr int kCheckpointVersion = 12;
 
 inline constexpr std::string_view kUnknownRevision = "unknown";
 

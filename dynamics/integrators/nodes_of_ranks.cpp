@@ -7,9 +7,12 @@
 
 namespace plekton::dynamics {
 
-void NodesOfRanks::share(contact::SharedMotion* shared, std::vector<std::uint8_t> acted_on) {
+void NodesOfRanks::share(contact::SharedMotion* shared, std::vector<std::uint8_t> acted_on,
+                         std::vector<std::uint8_t> planes) {
   shared_ = shared;
-  if (shared_ != nullptr) shared_->keep_common(std::move(acted_on));
+  if (shared_ == nullptr) return;
+  shared_->keep_common(std::move(acted_on));
+  shared_->keep_common_near(std::move(planes));
 }
 
 /// They are common from the next list on; that is made at once.

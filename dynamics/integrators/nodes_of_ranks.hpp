@@ -24,13 +24,15 @@ class NodesOfRanks {
 
   /// @param shared    null: one process
   /// @param acted_on  by NodeId, 1: something besides contacts and weight acts on it
-  void share(contact::SharedMotion* shared, std::vector<std::uint8_t> acted_on);
+  /// @param planes    by plane, 1: something looks in each step at what is near it
+  void share(contact::SharedMotion* shared, std::vector<std::uint8_t> acted_on,
+             std::vector<std::uint8_t> planes);
 
   /// Something more acts on these nodes from now on.
   void act_on(std::span<const NodeId> nodes);
 
-  /// To be called by all ranks, before anything looks at nodes that no structure, plane or load is
-  /// near to. It costs nothing if they are known.
+  /// To be called by all ranks, before anything looks at nodes that no structure or load is near
+  /// to. It costs nothing if they are known.
   void know_all() const {
     if (!knows_all_) tell_all();
   }

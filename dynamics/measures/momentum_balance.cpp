@@ -96,11 +96,10 @@ void MomentumBalance::look(const InnerForces& inner, geometry::ThreadPool& pool)
   const double force = sums.parts[NodeSums::of_forces].value();
   const double moment = sums.parts[NodeSums::of_moments].value();
   double reach = sums.reach;
-  inner.contacts.for_each_plane_record(inner.position, [&](const contact::ContactRecord& row) {
-    const Vec3 lever = row.point - sums_.about;
-    made.add(lever, row.force(), row.moment);
-    reach = std::max(reach, lever.norm());
-  });
+  for (std::size_t i = 0; i < inner.planes.size(); ++i) {
+    const contact::PlaneAction& action = inner.contacts.on_plane(i);
+    made.add(inner.planes[i].point - sums_.about, action.force, action.moment);
+  }
   inner.ties.for_each_on_fixed_point([&](const Vec3& place, const Vec3& pull) {
     const Vec3 lever = place - sums_.about;
     made.add(lever, pull, Vec3::Zero());

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace plekton::geometry {
 class StateArchive;
@@ -23,6 +24,7 @@ struct InnerForces {
   geometry::Positions position;  ///< m, of the nodes
   const NodeForces& forces;      ///< on all nodes, also those that are held
   const contact::Contacts& contacts;
+  std::span<const contact::Plane> planes;  ///< where they were in that step
   const Ties& ties;
   double carried = 0.0;  ///< N, how much bodies carry, also where it cancels at each node
   double kick = 0.0;     ///< s, for how long the forces act
@@ -40,12 +42,12 @@ struct MomentumDrift {
 /// The momentum p of a scene changes by the impulse J of what acts from outside (weight, loads,
 /// planes, what holds nodes) and by nothing else. As all nodes are stepped by the sum of their
 /// forces, p - p0 - J is the impulse of the forces between bodies, on free and on held nodes, plus
-/// that of contacts on the planes, told by the planes, and of ties on fixed points: by Newton's third law 0 but for rounding. It
-/// is added up over the steps that are looked at, with the angular one about the middle of the
-/// scene; so is what they carry, the sum of magnitudes.
+/// that of contacts on the planes, told by the planes, and of ties on fixed points: by Newton's
+/// third law 0 but for rounding. It is added up over the steps that are looked at, with the angular
+/// one about the middle of the scene; so is what they carry, the sum of magnitudes.
 ///
-/// Linear in the nodes and the contacts with planes. The same bits for any number of threads and
-/// ranks.
+/// Linear in the nodes and planes.
+/// The same bits for any number of threads and ranks.
 class MomentumBalance {
  public:
   /// So seldom that it costs nothing that could be measured.

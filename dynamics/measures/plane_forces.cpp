@@ -5,40 +5,10 @@
 
 namespace plekton::dynamics {
 
-ForceAndMoment force_on_plane(const contact::Contacts& contacts, geometry::Positions x,
-                              std::size_t plane, const Vec3& about) {
-  ForceAndMoment sum;
-  contacts.for_each_plane_record(x, [&](const contact::ContactRecord& row) {
-    if (static_cast<std::size_t>(row.b.index) == plane)
-      sum.add(row.point - about, row.force(), row.moment);
-  });
-  return sum;
-}
-
-double push_on_plane(const contact::Contacts& contacts, std::size_t plane) {
-  double sum = 0.0;
-  contacts.for_each_plane_force([&](std::size_t other, const Vec3&, double push) {
-    if (other == plane) sum += push;
-  });
-  return sum;
-}
-
-void add_plane_reactions(const contact::Contacts& contacts, std::span<PlaneReaction> reactions) {
-  contacts.for_each_plane_force([&](std::size_t plane, const Vec3& force, double push) {
-    reactions[plane].force += force;
-    reactions[plane].push += push;
-  });
-}
-
-double power_on_turning(const contact::Contacts& contacts, std::span<const contact::Plane> planes,
-                        geometry::Positions x) {
-  if (std::ranges::none_of(planes, &contact::Plane::turns)) return 0.0;
+double power_on_turning(const contact::Contacts& contacts, std::span<const contact::Plane> planes) {
   double power = 0.0;
-  contacts.for_each_plane_record(x, [&](const contact::ContactRecord& row) {
-    const contact::Plane& plane = planes[static_cast<std::size_t>(row.b.index)];
-    const Vec3 lever = row.point - plane.point;
-    power += plane.turning().dot(lever.cross(row.force()) + row.moment);
-  });
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (planes[i].turns()) power += planes[i].turning().dot(contacts.on_plane(i).moment);
   return power;
 }
 

@@ -54,4 +54,10 @@ std::vector<std::uint8_t> acted_on(const Scene& scene) {
   return marks.take();
 }
 
+std::vector<std::uint8_t> servo_planes(const Scene& scene) {
+  std::vector<std::uint8_t> marks(scene.planes.size(), 0);
+  for (const PlaneServo& servo : scene.loads.servos) marks[servo.plane] = 1;
+  return marks;
+}
+
 }  // namespace plekton::dynamics

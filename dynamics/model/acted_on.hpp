@@ -12,4 +12,8 @@ namespace plekton::dynamics {
 /// bodies. @returns by NodeId, 1 or 0
 std::vector<std::uint8_t> acted_on(const Scene& scene);
 
+/// Which planes a servo presses, which looks in each step at what is near them. @returns by plane, 1
+/// or 0
+std::vector<std::uint8_t> servo_planes(const Scene& scene);
+
 }  // namespace plekton::dynamics

@@ -46,6 +46,7 @@ class ShakenSpheres {
     forces_ = NodeForces(at_rest_.size());
     orientation_.assign(at_rest_.size(), geometry::Quat::Identity());
     planes_.push_back({Vec3(0, 0, -0.48), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}});
+    planes_.push_back({Vec3(-0.48, 0, 0), Vec3::UnitX(), Vec3(0, 2, 0), MaterialId{1}});
   }
 
   /// @returns a hash of all that can be seen of a step
@@ -74,7 +75,18 @@ class ShakenSpheres {
     add(contacts_->tracking_loss());
     add(contacts_->largest_overlap_ratio());
     add(static_cast<double>(contacts_->counts().sphere_sphere));
+    add(static_cast<double>(contacts_->counts().with_planes));
+    if (number % 3 == 0) {
+      add_vector(contacts_->on_plane(1).force);
+      contacts_->for_each_plane_pair(
+          [&](NodeId node, std::size_t plane, const PairSprings&, double gap) {
+            add(static_cast<double>(10 * index_of(node) + plane));
+            add(gap);
+          });
+    }
     if (!looks) return hash;
+    add_vector(contacts_->on_plane(0).moment);
+    add(contacts_->on_plane(1).push);
     add(contacts_->elastic_energy());
     contacts_->assign_ids();
     contacts_->for_each_record(x_, [&](const ContactRecord& row) {

@@ -33,7 +33,7 @@ class ContactsThen : public testing::Test {
     contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces);
   }
 
-  double force() const { return contacts_->force_on_plane(0).norm(); }
+  double force() const { return contacts_->on_plane(0).force.norm(); }
 
   std::uint64_t state_hash() {
     geometry::StateTree tree;

@@ -106,6 +106,8 @@ TEST_P(Restore, TellsOfTheLastStepWhatItToldBefore) {
   EXPECT_EQ(resumed.contacts().largest_overlap_ratio(), whole.contacts().largest_overlap_ratio());
   EXPECT_EQ(resumed.unbalanced_force_ratio(), whole.unbalanced_force_ratio());
   EXPECT_EQ(resumed.plane_reaction(0).force, whole.plane_reaction(0).force);
+  EXPECT_EQ(resumed.plane_reaction(0).moment, whole.plane_reaction(0).moment);
+  EXPECT_EQ(resumed.pressing_on(0), whole.pressing_on(0));
 }
 
 TEST_P(Restore, IsNotSeenByASimulationWhoseStateIsTaken) {

@@ -52,7 +52,7 @@ Simulation simulation_of(const Scene& scene, int threads = 1) {
 
 /// N, with which the bodies press on a plane.
 double pressing(const Simulation& simulation, std::size_t plane) {
-  return -simulation.contacts().force_on_plane(plane).dot(simulation.planes()[plane].normal);
+  return -simulation.contacts().on_plane(plane).force.dot(simulation.planes()[plane].normal);
 }
 
 /// Largest distance of the force on the plate from a target, over the target, in a time (s).

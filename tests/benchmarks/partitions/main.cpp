@@ -32,10 +32,10 @@ using geometry::Vec3;
 // Bytes, as contact/sphere_sphere/shared_blocks.* and shared_motion.* tell them.
 constexpr std::uint64_t kSumBytes = 48;     // of a ghost of a block, to its owner
 constexpr std::uint64_t kMotionBytes = 72;  // of a private sphere, to a rank that has it as a ghost
-constexpr std::uint64_t kForceBytes = 48;   // of a common sphere, to all ranks
 constexpr std::uint64_t kNodeBytes = 152;   // of a private sphere, to all ranks at a new list
 constexpr std::uint64_t kPairBytes = 8;     // of a pair found, likewise
-constexpr std::uint64_t kTotalBytes = sizeof(contact::BlockTotals) + sizeof(dynamics::StepSums);
+/// Of a rank, to all: what its contacts between spheres and with planes came to, and its motion.
+constexpr std::uint64_t kTotalBytes = 2 * sizeof(contact::BlockTotals) + sizeof(dynamics::StepSums);
 constexpr int kStepsBetweenLists = 100;  // as in the bed of docs/howto/many_ranks.md
 constexpr std::array kParts = {2, 8, 64, 256, 512, 4096};
 
@@ -50,7 +50,7 @@ struct Part {
   std::uint64_t inner_work = 0;   ///< of blocks with ghosts of no other part; in pairs
   std::uint64_t border_work = 0;  ///< of those with
   std::uint64_t things = 0;
-  std::uint64_t common = 0;                          ///< of its spheres, that all parts move
+  std::uint64_t at_walls = 0;                        ///< of its spheres, of which each takes longer
   std::uint64_t ghosts = 0;                          ///< that it has of others
   std::map<int, Message> sent;                       ///< by receiver
   std::uint64_t bytes_sent = 0, bytes_received = 0;  ///< in a step, to and from its neighbours
@@ -89,10 +89,10 @@ void print_head(const char* things) {
 }
 
 /// What all parts tell all at a new list, in bytes.
-double list_bytes(const std::vector<Part>& parts, std::uint64_t private_things) {
+double list_bytes(const std::vector<Part>& parts, std::uint64_t things) {
   double pairs = 0.0;
   for (const Part& part : parts) pairs += static_cast<double>(part.work());
-  return kNodeBytes * static_cast<double>(private_things) + kPairBytes * pairs;
+  return kNodeBytes * static_cast<double>(things) + kPairBytes * pairs;
 }
 
 /// @param bytes_of_list  that are told to all at a new list
@@ -100,9 +100,7 @@ void print_row(const std::vector<Part>& parts, double bytes_of_list) {
   const auto ghosts = [](const Part& part) { return part.ghosts; };
   const auto things = [](const Part& part) { return part.things; };
   const auto work = [](const Part& part) { return part.work(); };
-  double common = 0.0;
-  for (const Part& part : parts) common += static_cast<double>(part.common);
-  const double to_all = kForceBytes * common + kTotalBytes * static_cast<double>(parts.size());
+  const double to_all = kTotalBytes * static_cast<double>(parts.size());
   std::printf("%6zu %11.0f %8.0f %8.0f %6.2f%% %10.1f %10.1f %10.0f %10.1f %10.1f %8.2f%%\n",
               parts.size(), mean(parts, things), mean(parts, ghosts), most(parts, ghosts),
               100.0 * mean(parts, ghosts) / mean(parts, things),
@@ -166,14 +164,14 @@ struct BlockedBed {
     // The outermost layer lies on the walls of a box.
     const auto last = bed.x.back().maxCoeff();
     for (const Vec3& x : bed.x)
-      is_common.push_back(x.minCoeff() < 0.5 || x.maxCoeff() > last - 0.5 ? 1 : 0);
+      is_at_wall.push_back(x.minCoeff() < 0.5 || x.maxCoeff() > last - 0.5 ? 1 : 0);
   }
 
   std::size_t spheres = 0;
   SphereBlocks blocks;
-  std::vector<std::uint64_t> work;      ///< by block
-  std::vector<std::int32_t> block_of;   ///< by sphere
-  std::vector<std::uint8_t> is_common;  ///< by sphere
+  std::vector<std::uint64_t> work;       ///< by block
+  std::vector<std::int32_t> block_of;    ///< by sphere
+  std::vector<std::uint8_t> is_at_wall;  ///< by sphere
 };
 
 /// Parts are ranges of blocks: those of one follow each other.
@@ -187,7 +185,7 @@ std::vector<Part> parts_of(const BlockedBed& bed, int count) {
     const SphereBlocks::Block& block = bed.blocks.blocks()[k];
     part.things += block.owned;
     for (const SphereBlocks::Member& sphere : bed.blocks.owned(block))
-      part.common += bed.is_common[index_of(sphere.node)];
+      part.at_walls += bed.is_at_wall[index_of(sphere.node)];
     bool is_at_border = false;
     for (const SphereBlocks::Member& ghost : bed.blocks.ghosts(block)) {
       const std::size_t sphere = index_of(ghost.node);
@@ -197,8 +195,7 @@ std::vector<Part> parts_of(const BlockedBed& bed, int count) {
       part.sent[owner].sums += kSumBytes;  // once for each block that has it
       if (std::exchange(last_with[sphere], self) == self) continue;
       ++part.ghosts;
-      if (bed.is_common[sphere] == 0)
-        parts[static_cast<std::size_t>(owner)].sent[self].motion += kMotionBytes;
+      parts[static_cast<std::size_t>(owner)].sent[self].motion += kMotionBytes;
     }
     (is_at_border ? part.border_work : part.inner_work) += bed.work[k];
   }
@@ -210,10 +207,10 @@ std::vector<Part> parts_of(const BlockedBed& bed, int count) {
 void write(const std::vector<Part>& parts, double bytes_of_list,
            const std::filesystem::path& path) {
   std::ofstream file(path);
-  file << parts.size() << ' ' << kForceBytes << ' ' << kTotalBytes << ' ' << bytes_of_list << ' '
-       << kStepsBetweenLists << '\n';
+  file << parts.size() << ' ' << kTotalBytes << ' ' << bytes_of_list << ' ' << kStepsBetweenLists
+       << '\n';
   for (const Part& part : parts) {
-    file << part.things << ' ' << part.common << ' ' << part.border_work << ' ' << part.inner_work
+    file << part.things << ' ' << part.at_walls << ' ' << part.border_work << ' ' << part.inner_work
          << ' ' << part.sent.size();
     for (const auto& [to, message] : part.sent)
       file << ' ' << to << ' ' << message.sums << ' ' << message.motion;
@@ -225,12 +222,11 @@ void write(const std::vector<Part>& parts, double bytes_of_list,
 /// @param folder  where parts are written, a file for each number of them; empty: nowhere
 void count_bed(std::size_t about, const std::filesystem::path& folder) {
   const BlockedBed bed(about);
-  const auto common = static_cast<std::size_t>(std::ranges::count(bed.is_common, 1));
-  std::printf("%zu of the spheres on the walls of a box\n", common);
+  std::printf("%td of the spheres on the walls of a box\n", std::ranges::count(bed.is_at_wall, 1));
   print_head("spheres");
   for (const int count : kParts) {
     const std::vector<Part> parts = parts_of(bed, count);
-    const double bytes = list_bytes(parts, bed.spheres - common);
+    const double bytes = list_bytes(parts, bed.spheres);
     print_row(parts, bytes);
     if (!folder.empty()) write(parts, bytes, folder / (std::to_string(count) + ".txt"));
   }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How fast many ranks would be on a cluster that SimGrid imagines: steps of 10 million spheres in a box, of which plekton-bench-partitions
-counts what each rank computes and tells. Two ways: "today", as ranks share the work now, and "planned", where lists, and spheres near
-walls, are shared out too. Before that it prints what was counted.
+counts what each rank computes and tells. Two ways: "today", as ranks share the work now, and "planned", where lists are shared
+out too. Before that it prints what was counted.
 
 Usage: python3 simulate.py PLEKTON-BENCH-PARTITIONS [--spheres 10000000] [--ranks 8 64 256 512]
 

@@ -16,11 +16,11 @@
 namespace {
 
 // s, of one core, as measured with 100 000 spheres (docs/howto/many_ranks.md): 72 ns a sphere and
-// step, of which about 5 go into lists, and about 5 into the walls and the motion of what is near
-// them; those are about a tenth of the spheres there.
+// step, of which about 5 go into lists, and about 5 into the walls; about a tenth of the spheres
+// there lie on these.
 constexpr double kPairsTime = 62e-9;   // a sphere
 constexpr double kListTime = 5e-9;     // a sphere
-constexpr double kCommonTime = 50e-9;  // a sphere on a wall
+constexpr double kWallTime = 50e-9;    // a sphere on a wall
 constexpr double kFlops = 1e9;         // a second, of the machine that simulate.py describes
 constexpr double kBandwidth = 12.5e9;  // bytes a second, likewise
 constexpr int kSteps = 3;
@@ -33,7 +33,7 @@ struct Message {
 };
 
 struct Part {
-  double spheres, common, border_work, inner_work;
+  double spheres, at_walls, border_work, inner_work;
   std::vector<Message> sent, received;
 };
 
@@ -42,12 +42,12 @@ struct Parts {
   explicit Parts(const char* path) {
     std::ifstream file(path);
     std::size_t count = 0;
-    file >> count >> force_bytes >> total_bytes >> list_bytes >> steps_between_lists;
+    file >> count >> total_bytes >> list_bytes >> steps_between_lists;
     of_ranks.resize(count);
     for (std::size_t rank = 0; rank < count; ++rank) {
       Part& part = of_ranks[rank];
       std::size_t neighbours = 0;
-      file >> part.spheres >> part.common >> part.border_work >> part.inner_work >> neighbours;
+      file >> part.spheres >> part.at_walls >> part.border_work >> part.inner_work >> neighbours;
       for (std::size_t i = 0; i < neighbours; ++i) {
         Message message{};
         file >> message.rank >> message.sums >> message.motion;
@@ -56,17 +56,17 @@ struct Parts {
             {static_cast<int>(rank), message.sums, message.motion});
       }
       spheres += part.spheres;
-      common += part.common;
+      at_walls += part.at_walls;
       work += part.border_work + part.inner_work;
     }
     is_read = static_cast<bool>(file);
   }
-  double time_of_one() const { return spheres * (kPairsTime + kListTime) + common * kCommonTime; }
+  double time_of_one() const { return spheres * (kPairsTime + kListTime) + at_walls * kWallTime; }
 
   std::vector<Part> of_ranks;
-  double force_bytes = 0, total_bytes = 0, list_bytes = 0;
+  double total_bytes = 0, list_bytes = 0;
   double steps_between_lists = 1;
-  double spheres = 0, common = 0, work = 0;
+  double spheres = 0, at_walls = 0, work = 0;
   bool is_read = false;
 };
 
@@ -80,11 +80,9 @@ class Rank {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     part_ = &parts.of_ranks[static_cast<std::size_t>(rank)];
-    int total = 0, largest = 0;
+    const int total = static_cast<int>(parts.total_bytes) * static_cast<int>(parts.of_ranks.size());
+    int largest = 0;
     for (const Part& part : parts.of_ranks) {
-      counts_.push_back(static_cast<int>(part.common * parts.force_bytes + parts.total_bytes));
-      places_.push_back(total);
-      total += counts_.back();
       for (const Message& message : part.sent)
         largest = std::max({largest, message.sums, message.motion});
     }
@@ -101,32 +99,23 @@ class Rank {
   void step() {
     const Part& part = *part_;
     const double spheres = is_planned_ ? part.spheres : parts_.spheres;
-    const double common = is_planned_ ? part.common : parts_.common;
-    compute(spheres * kListTime + common * kCommonTime);
+    compute(spheres * kListTime + part.at_walls * kWallTime);
     const double time_of_work = kPairsTime * parts_.spheres / parts_.work;
     compute(part.border_work * time_of_work);
     begin_exchange(&Message::sums);
     compute(part.inner_work * time_of_work);
     end_exchange();
-    if (is_planned_)
-      MPI_Allreduce(sent_, room_, static_cast<int>(parts_.total_bytes), MPI_CHAR, MPI_MAX,
-                    MPI_COMM_WORLD);
-    else
-      gather();
+    const auto bytes = static_cast<int>(parts_.total_bytes);
+    MPI_Allgather(sent_, bytes, MPI_CHAR, room_, bytes, MPI_CHAR, MPI_COMM_WORLD);
+    if (!is_planned_) take_lists();
     begin_exchange(&Message::motion);
     end_exchange();
   }
 
  private:
-  /// Forces on all common spheres go to all; at a new list private spheres and pairs too: 2 GB for
-  /// ten million spheres, which is taken to come as fast as a link can bring it.
-  void gather() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Allgatherv(sent_, counts_[static_cast<std::size_t>(rank)], MPI_CHAR, room_, counts_.data(),
-                   places_.data(), MPI_CHAR, MPI_COMM_WORLD);
-    compute(parts_.list_bytes / (parts_.steps_between_lists * kBandwidth));
-  }
+  /// At a new list all spheres and pairs go to all: 2 GB for ten million spheres, which is taken to
+  /// come as fast as a link can bring it.
+  void take_lists() { compute(parts_.list_bytes / (parts_.steps_between_lists * kBandwidth)); }
 
   void begin_exchange(int Message::*size) {
     requests_.clear();
@@ -148,7 +137,6 @@ class Rank {
   const Parts& parts_;
   bool is_planned_;
   const Part* part_;
-  std::vector<int> counts_, places_;
   std::vector<MPI_Request> requests_;
   char* room_;
   char* sent_;

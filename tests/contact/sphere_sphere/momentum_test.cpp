@@ -68,6 +68,8 @@ TEST(Momentum, IsHandedFromSphereToPlaneAtTheContactPoint) {
     const std::vector<geometry::IndexPair> pairs{{0, 0}};
     PlaneContacts contacts;
     contacts.rebuild(pairs, balls, planes, MaterialPairs({kMaterial}));
+    const SphereBlocks no_blocks;
+    contacts.share_out(balls, {&no_blocks, {}, nullptr});
     const double height = random.uniform(0.4, 0.499);
     const std::vector<Vec3> x{plane.point + 2.0 * plane.normal.unitOrthogonal() +
                               height * plane.normal};
@@ -77,12 +79,16 @@ TEST(Momentum, IsHandedFromSphereToPlaneAtTheContactPoint) {
     NodeForces forces(1);
     contacts.advance({x, v, w}, planes, 1e-3, pool, forces);
 
-    const Vec3 force = contacts.force_on(0);
+    const PlaneAction& action = contacts.action_on(0);
+    const Vec3& force = action.force;
 
     EXPECT_EQ(forces.force[0], -force);
     const Vec3 contact_point = x[0] - (0.5 + 0.5 * (height - 0.5)) * plane.normal;
     const Vec3 moment = contact_point.cross(force) + x[0].cross(forces.force[0]) + forces.torque[0];
     EXPECT_NEAR(moment.norm(), 0.0, 1e-13 * force.norm());
+    const Vec3 about_point = (contact_point - plane.point).cross(force);
+    EXPECT_NEAR((action.moment - about_point).norm(), 0.0, 1e-13 * force.norm());
+    EXPECT_NEAR(action.push, -force.dot(plane.normal), 1e-13 * force.norm());
   }
 }
 

@@ -54,16 +54,5 @@ TEST(Rekey, KeepsWhatIsInBothListsMakesTheNewAndDropsTheRest) {
   }
 }
 
-TEST(Rekey, FindsWhereTheKeysOfAnIndexBegin) {
-  const std::vector<IndexPair> keys{{1, 0}, {1, 4}, {3, 2}};
-  Rekey<int> rekey;
-  std::vector<int> things;
-  rekey(
-      things, keys, [](std::size_t, const int*) { return 0; }, [](int) {});
-
-  const std::vector<std::size_t> expected{0, 0, 2, 2, 3, 3};
-  for (std::size_t a = 0; a < expected.size(); ++a) EXPECT_EQ(rekey.first_of(a), expected[a]);
-}
-
 }  // namespace
 }  // namespace plekton::contact::rekey_test

@@ -179,6 +179,37 @@ void add_far_facet(Scene& scene, bool is_there) {
   scene.is_absent.resize(scene.state.size(), true);
 }
 
+/// Nothing of bodies that are gone acts on planes any more.
+TEST_P(SceneGoesOn, WithWhatTheContactsThatStayDoToPlanes) {
+  Simulation whole = before_.simulation(GetParam());
+  advance(whole, 40);
+  std::vector<contact::ContactRecord> rows = whole.contact_rows();
+  const auto is_of_sphere = [](const contact::ContactRecord& row) {
+    return row.a.kind == contact::BodyKind::sphere && row.b.kind == contact::BodyKind::plane;
+  };
+  const auto first = std::ranges::find_if(rows, is_of_sphere);
+  ASSERT_NE(first, rows.end());
+  const auto sphere = static_cast<std::size_t>(first->a.index);
+  const auto plane = static_cast<std::size_t>(first->b.index);
+  ReportedScene fewer;
+  const SceneChange change = without(fewer.scene, sphere);
+  take_out(fewer.scene, sphere);
+  Simulation next = fewer.simulation(GetParam());
+  next.go_on_from(whole, change);
+
+  ForceAndMoment left;
+  rows = next.contact_rows();
+  for (const contact::ContactRecord& row : rows)
+    if (row.b.kind == contact::BodyKind::plane && static_cast<std::size_t>(row.b.index) == plane)
+      left.add(row.point - next.force_point(plane), row.force(), row.moment);
+  const ForceAndMoment acts = next.plane_reaction(plane);
+  const double gone = (whole.plane_reaction(plane).force - left.force).norm();
+  EXPECT_GT(gone, 0.0);
+  EXPECT_LE((acts.force - left.force).norm(), 1e-12 * gone);
+  // About the places after the drift, which bodies have moved on to.
+  EXPECT_LE((acts.moment - left.moment).norm(), 1e-3 * (left.moment.norm() + gone));
+}
+
 /// What the facet has no part in goes on to the last bit where it comes, and where it goes.
 TEST_P(SceneGoesOn, ToTheLastBitWhereAStructureComesOrGoesThatNothingTouches) {
   for (const bool comes : {true, false}) {

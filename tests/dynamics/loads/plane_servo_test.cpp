@@ -161,8 +161,8 @@ TEST(PlaneServo, PressesAGrainWithItsForceAndStopsThere) {
 
   const double error = closure_until(simulation, 0.3);
 
-  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 3.0, 1e-6 * 3.0);
-  EXPECT_NEAR(simulation.contacts().force_on_plane(0).z(), -3.0,
+  EXPECT_NEAR(simulation.contacts().on_plane(1).force.z(), 3.0, 1e-6 * 3.0);
+  EXPECT_NEAR(simulation.contacts().on_plane(0).force.z(), -3.0,
               0.05 * 3.0);  // the grain rings without damping
   EXPECT_GT(simulation.energy().external_work, 0.0);
   EXPECT_LT(error, 0.01);  // of first order: the moment at which the plate strikes
@@ -174,12 +174,12 @@ TEST(PlaneServo, FollowsATargetThatIsSetWhileItRuns) {
   scene.loads.servos[0].plane = 1;
   auto simulation = simulation_of(scene, 0.25 * LoadedSimulation(scene, {}).time_step());
   closure_until(simulation, 0.2);
-  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 3.0, 1e-4 * 3.0);
+  EXPECT_NEAR(simulation.contacts().on_plane(1).force.z(), 3.0, 1e-4 * 3.0);
 
   simulation.set_servo(0, 1.0, 4.0);  // N, and Pa on 1 m²
   const double error = closure_until(simulation, 0.4);
 
-  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 5.0, 1e-4 * 5.0);
+  EXPECT_NEAR(simulation.contacts().on_plane(1).force.z(), 5.0, 1e-4 * 5.0);
   EXPECT_LT(error, 0.01);
   EXPECT_THROW(simulation.set_servo(1, 1.0), std::out_of_range);
   EXPECT_THROW(simulation.set_servo(0, 0.0), std::invalid_argument);
@@ -232,7 +232,7 @@ TEST(PlaneServo, KeepsTheEnergyBalanceAtWhateverMomentOfAStepItArrives) {
     auto simulation = simulation_of(scene, 0.0);
 
     EXPECT_LT(closure_until(simulation, 0.05), 0.005) << "phase " << phase;
-    EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 10.0, 0.01) << phase;
+    EXPECT_NEAR(simulation.contacts().on_plane(1).force.z(), 10.0, 0.01) << phase;
   }
 }
 
@@ -339,7 +339,7 @@ void expect_balance_on_damped_grains(double restitution, double gain, double par
       const double closure = closure_until(simulation, 0.06);
       EXPECT_LT(closure, largest_closure) << many << ' ' << phase;
       EXPECT_GT(simulation.energy().friction, 0.0) << many << ' ' << phase;
-      EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 1.1, 0.02) << many << ' ' << phase;
+      EXPECT_NEAR(simulation.contacts().on_plane(1).force.z(), 1.1, 0.02) << many << ' ' << phase;
     }
   }
 }

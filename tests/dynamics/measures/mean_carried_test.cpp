@@ -49,7 +49,7 @@ class MeanCarried : public testing::Test {
     geometry::ThreadPool pool;
     NodeForces forces(scene_.state.size());
     contacts->advance(scene_.state.motion(), scene_.planes, 0.0, pool, forces);
-    push_ = contacts->force_on_plane(0).norm();
+    push_ = contacts->on_plane(0).force.norm();
     return mean_carried({scene_, surface, *contacts, bonds, yielding, sheets, ties, loads, rigid},
                         scene_.state.position);
   }

@@ -29,8 +29,8 @@ class TwoNodes : public testing::Test {
   MomentumDrift drift(double carried = 0.0, int looks = 1) {
     geometry::ThreadPool pool;
     for (int k = 0; k < looks; ++k)
-      balance_.look({position_, forces_, simulation_.contacts(), simulation_.ties(), carried, 0.5},
-                    pool);
+      balance_.look(
+          {position_, forces_, simulation_.contacts(), {}, simulation_.ties(), carried, 0.5}, pool);
     return balance_.drift();
   }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace plekton::dynamics::plane_forces_test {
@@ -26,17 +27,31 @@ TEST(PlaneForces, PressAtNoWayIsWhatActsAndGrowsWithTheWay) {
   const std::vector<Vec3> x = simulation.force_positions();
   const contact::Contacts& contacts = simulation.contacts();
   const std::vector<contact::Plane>& planes = simulation.planes();
-  const ForceAndMoment acts = force_on_plane(contacts, x, 0, Vec3::Zero());
+  const contact::PlaneAction& acts = contacts.on_plane(0);
   const PlanePress now = press_on_plane(contacts, planes, 0, 0.0, x);
   const PlanePress further = press_on_plane(contacts, planes, 0, 1e-4, x);
 
   EXPECT_LT(acts.force.z(), 0.0);
   EXPECT_NEAR(now.force, -acts.force.z(), 1e-12 * now.force);
   EXPECT_NEAR(acts.moment.y(), -0.3 * acts.force.z(), 1e-12 * now.force);
-  EXPECT_NEAR(push_on_plane(contacts, 0), now.force, 1e-12 * now.force);
+  EXPECT_NEAR(acts.push, now.force, 1e-12 * now.force);
   // The linear law: a spring over the whole overlap.
   EXPECT_NEAR(further.force - now.force, 1e-4 * now.stiffness, 1e-9 * now.force);
   EXPECT_NEAR(now.force, 0.01 * kRadius * now.stiffness, 1e-9 * now.force);
+}
+
+/// The floor turns about an axis through the origin, and the ball rubs on it 0.3 m from there.
+TEST(PlaneForces, OnATurningPlaneTakeThePowerOfFrictionAtItsLever) {
+  Scene scene = ball_in_floor();
+  scene.planes[0].axis = Vec3::UnitZ();
+  scene.planes[0].angular_velocity = 2.0;
+  Simulation simulation(scene, {});
+  for (int i = 0; i < 5; ++i) simulation.step();
+  const contact::PlaneAction& acts = simulation.contacts().on_plane(0);
+  EXPECT_NE(acts.force.y(), 0.0);
+  const double by_hand = 2.0 * simulation.state().position[0].x() * acts.force.y();
+  EXPECT_NEAR(power_on_turning(simulation.contacts(), simulation.planes()), by_hand,
+              1e-2 * std::abs(by_hand));
 }
 
 TEST(PlaneForces, FastestOfAPlaneThatTurnsIsWhereANodeIsFurthestFromItsAxis) {

@@ -235,7 +235,7 @@ TEST(RigidBodies, PouredOnAFloorTakeUpWeightAndReactionAlone) {
 
   for (int i = 0; i < 4000; ++i) {
     simulation.step();
-    const Vec3 floor = -simulation.contacts().force_on_plane(0);
+    const Vec3 floor = -simulation.contacts().on_plane(0).force;
     borne = std::max(borne, floor.z());
     expected += 2e-5 * (mass * gravity + floor);
     size = std::max(size, momenta_of(simulation).size);
