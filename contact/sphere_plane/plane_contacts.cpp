@@ -299,14 +299,7 @@ void PlaneContacts::add_forces(NodeForces& forces) const {
 }
 
 double PlaneContacts::elastic_energy() const {
-  struct Sum {
-    geometry::OrderlessSum energy;
-    Sum& operator+=(const Sum& other) noexcept {
-      energy += other.energy;
-      return *this;
-    }
-  };
-  Sum of_own, sum;
+  geometry::OrderlessSum of_own, sum;
   for (const PlanePieces::Piece& piece : pieces_.pieces()) {
     if (!piece.counts) continue;
     double of_piece = 0.0;
@@ -316,11 +309,11 @@ double PlaneContacts::elastic_energy() const {
       of_piece += AnyLaw::elastic_normal_energy(slot.parameters, slot.state.gap) +
                   AnyLaw::history_energy(slot.parameters, slot.state.memory.history);
     }
-    of_own.energy.add(of_piece);
+    of_own.add(of_piece);
   }
-  if (pieces_.motion() == nullptr) return of_own.energy.value();
+  if (pieces_.motion() == nullptr) return of_own.value();
   pieces_.motion()->add_up(of_own, sum);
-  return sum.energy.value();
+  return sum.value();
 }
 
 const PlaneAction& PlaneContacts::action_on(std::size_t plane) const {

@@ -46,8 +46,7 @@ struct MomentumDrift {
 /// third law 0 but for rounding. It is added up over the steps that are looked at, with the angular
 /// one about the middle of the scene; so is what they carry, the sum of magnitudes.
 ///
-/// Linear in the nodes and planes.
-/// The same bits for any number of threads and ranks.
+/// Linear in the nodes and planes. The same bits for any number of threads and ranks.
 class MomentumBalance {
  public:
   /// So seldom that it costs nothing that could be measured.
