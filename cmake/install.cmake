@@ -19,6 +19,7 @@ plekton_public_headers(public_headers
   dynamics/output/pvd_series.hpp
   dynamics/output/scene_frame.hpp
   dynamics/output/vtk_writer.hpp
+  dynamics/measure_sample.hpp
   dynamics/measures/unbalanced_force.hpp
   dynamics/scene_check.hpp
   dynamics/simulation.hpp

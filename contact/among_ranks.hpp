@@ -13,6 +13,8 @@ namespace plekton::contact {
 /// and gets the same answers, to the bit; contacts between spheres are shared out by blocks.
 /// @param model  as contact/models.hpp makes it
 /// @param ranks  must outlive the contacts
+/// @returns a model whose contacts are refused with std::invalid_argument where the given one makes
+///          contacts of another kind
 ContactModel among_ranks(ContactModel model, geometry::Ranks& ranks);
 
 /// What each rank does alone, since the last list; nothing where there is nothing to share: one

@@ -11,7 +11,9 @@
 
 namespace plekton::contact {
 
-/// What a scene's contacts are between.
+/// What a scene's contacts are between. Whoever makes contacts of it checks the properties of pairs
+/// of materials alone (models.hpp): lists have to be as long as is said, ids those of materials,
+/// the skin >= 0, as dynamics::check() sees to for a Scene.
 struct ContactScene {
   std::span<const geometry::Sphere> spheres;  ///< they and the surface must outlive the contacts
   const geometry::Surface& surface;

@@ -119,7 +119,8 @@ class Contacts {
   /// histories are handed from patch to patch, on lists that change, and with elements that break.
   virtual double tracking_loss() const noexcept = 0;
 
-  /// Largest overlap of the last step over the radius of the smaller sphere.
+  /// Largest overlap of the last step over a radius: of the smaller of two spheres, of the sphere on
+  /// a surface or plane, of the thinner of two structures.
   virtual double largest_overlap_ratio() const noexcept = 0;
   /// How many spheres' centres went through a facet or a cylinder in the last step.
   virtual std::int64_t pass_throughs() const noexcept = 0;

@@ -46,6 +46,8 @@ bool list_pair_problems(const PairProperties<AnyLaw>& properties, std::size_t ma
       problems << whose << ": there is no material " << id << ", only " << materials
                << " materials\n";
     }
+    if (a > b && properties.contains({pair.second, pair.first}))
+      problems << whose << ": given in both orders; a pair has one law, give it once\n";
     has_laws &= list_law_problems(of_pair, whose, problems);
   }
   return has_laws;

@@ -191,6 +191,9 @@ class SceneProblems {
                          << "; it must be finite\n";
       if (!std::isfinite(plane.widening))
         line("plane", i) << "its widening is " << plane.widening << " m/s; it must be finite\n";
+      if (plane.form == contact::Plane::Form::flat && plane.widening != 0.0)
+        line("plane", i) << "it is flat and gets wider by " << plane.widening
+                         << " m/s; only a cylinder or a ball does\n";
       expect_turning_in_itself(i, plane);
     }
   }

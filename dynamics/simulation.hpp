@@ -57,12 +57,12 @@ struct Resistance;
 /// Several processes may compute one scene (contact::among_ranks): all make the same calls in the
 /// same order and get the same answers. A view is of now; after a step it has to be asked for anew.
 ///
-/// Every call that takes a node, bond or plane checks its id before anything else, and throws
+/// Every call that takes a node, bond, plane, rigid body or load checks its id, and throws
 /// std::out_of_range with the call, the id and how many there are.
 class Simulation {
  public:
-  /// @throws std::invalid_argument listing every problem of the scene, the options or the model,
-  ///         among them a time step above kLargestStep of the critical one
+  /// @throws std::invalid_argument listing every problem of the scene, or of the options and the
+  ///         model, among them a time step above kLargestStep of the critical one
   /// @param scene  is copied in the library, not in what includes this and would compile for longer
   /// @param model  which contact law there is
   Simulation(const Scene& scene, const SimulationOptions& options,
@@ -82,7 +82,8 @@ class Simulation {
   /// long as ends there: what swings fast would change its energy by as much as a single step
   /// differs from those before it. The next step() is as long as chosen or given again. A rest of a
   /// thousandth of a step, as rounding leaves it, is left out, but there is one step at least.
-  /// @param end  s
+  /// @param end  s; nothing is done if it is not a number
+  /// @throws as step()
   /// @returns whether there was any time left; nothing is done without
   bool step_until(double end);
 
@@ -107,11 +108,14 @@ class Simulation {
   /// @throws std::invalid_argument if there is no facet on these nodes
   void break_facet(const std::array<NodeId, 3>& nodes);
 
+  /// s.
   double time() const noexcept { return time_; }
   std::int64_t steps() const noexcept { return steps_; }
   /// s; infinite if none was given and nothing in the scene sets one.
   double time_step() const noexcept { return dt_; }
-  /// @param dt  s, > 0, from the next step on; from then on it is not chosen any more
+  /// @param dt  s, > 0, from the next step on; from then on it is not chosen any more. It is not
+  ///            compared with critical_step(), above which energies grow
+  /// @throws std::invalid_argument if it is not positive and finite
   void set_time_step(double dt);
 
   /// What it is made of, in its present state.
@@ -122,6 +126,8 @@ class Simulation {
   const NodeState& state() const { return scene().state; }
   /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
   /// (Scene::loads), and those of the reference nodes of rigid bodies, which take their nodes along.
+  /// Of a node that is free its kinetic energy changes so without work in the ledger.
+  /// @param velocity, angular_velocity  m/s, rad/s
   /// @throws std::invalid_argument for a node that follows a rigid body, or a velocity that is not
   ///         finite
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
@@ -134,6 +140,7 @@ class Simulation {
   void add_force(std::vector<NodeId> nodes, OwnForce force);
   /// Changes a load, from the next step on, by its place in Loads::forces; its factor goes on.
   /// It is part of the state from then on, and forgotten by go_on_from().
+  /// @param force, torque  N, N m
   /// @throws std::invalid_argument for a force or torque that is not finite
   void set_force(std::size_t load, const Vec3& force, const Vec3& torque = Vec3::Zero());
   /// The same by its place in Loads::pressures. A step that was chosen follows; one that was given
@@ -141,10 +148,10 @@ class Simulation {
   /// @throws std::invalid_argument for one by volume, or a pressure that is not finite
   void set_pressure(std::size_t load, double pressure);
   /// The same of a plane servo, by its place in Loads::servos: with force + pressure area from then
-  /// on. @throws std::invalid_argument for targets that are not finite, below 0, or both 0
+  /// on (N, Pa). @throws std::invalid_argument for targets that are not finite, below 0, or both 0
   void set_servo(std::size_t load, double force, double pressure = 0.0);
   /// The same by its place in Loads::body_servos. @param target  N, or N m of one that turns, which
-  /// has no pressure
+  /// has no pressure, and a torque that is not 0
   void set_body_servo(std::size_t load, double target, double pressure = 0.0);
   /// The velocity (m/s) of a plane that no load moves, from the next step on. A step that was given
   /// does not follow.
@@ -168,7 +175,8 @@ class Simulation {
   const RigidBodies& rigid_bodies() const noexcept { return rigid_bodies_; }
   const AppliedLoads& loads() const noexcept { return *loads_; }
   const contact::Contacts& contacts() const noexcept { return *contacts_; }
-  /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
+  /// N, N m, of contacts, bonds, ties, sheets and loads in the last step, gravity not included; of
+  /// the reference node of a rigid body with those on all that follow it. 0 before the first step.
   const NodeForces& forces() const {
     nodes_.know_all();
     return forces_;
@@ -232,7 +240,8 @@ class Simulation {
   /// How far the balance of momentum has been off at most (measures/momentum_balance.hpp): no more
   /// than rounding.
   MomentumDrift momentum_drift() const noexcept { return momentum_.drift(); }
-  /// Largest overlap of any step so far over the radius of the smaller ball.
+  /// Largest overlap of any step so far over a radius: of the smaller of two spheres, of the sphere
+  /// on a surface or plane, of the thinner of two structures.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
   /// How often so far a sphere's centre went through a facet or a cylinder: its overlap was deeper
   /// than both radii. From then on it is pushed out on the other side.
@@ -261,7 +270,7 @@ class Simulation {
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
   /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp)
   /// contacts are seen late; a chosen step keeps below that, a given one may not. 0 of one structure
-  /// alone that may not touch itself.
+  /// alone that may not touch itself; not a number where time_step() is infinite.
   double motion_ratio() const;
 
   // The state, to go on from later or elsewhere.
@@ -274,12 +283,13 @@ class Simulation {
   /// To be called before the first step of a simulation of the same scene, materials and laws; its
   /// loads may be other ones of the same kinds. Those that have been set there go on so, by place.
   /// @throws std::logic_error after the first step
-  /// @throws geometry::StateMismatch if the state is of another scene, or damaged: the simulation
-  ///         can only be thrown away then
+  /// @throws geometry::StateMismatch if the state is of another scene, or damaged, or its step was
+  ///         chosen and this one's is given or the other way round, or loads move other planes: the
+  ///         simulation can only be thrown away then
   void restore(const geometry::StateTree& state);
   /// The same, to and from an HDF5 file with a data set for every array of the state. load() refuses
   /// a file of another version of them, and one in which a bit has changed.
-  /// @throws OutputError; CheckpointError
+  /// @throws OutputError of save(); CheckpointError, and as restore(), of load()
   void save(const std::filesystem::path& file);
   void load(const std::filesystem::path& file);
 

@@ -14,7 +14,7 @@ struct SimulationOptions {
   double skin =
       0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
   ///< the smallest radius, then follows how fast spheres move
-  int threads = 1;
+  int threads = 1;           ///< >= 1; results do not depend on it
   bool self_contact = true;  ///< whether a structure may touch itself where it folds
 };
 

@@ -23,14 +23,14 @@
 ///
 /// Wrong input of Surface, ProximityQuery, SurfaceQuery and first_contact() throws
 /// std::invalid_argument with a line for every problem, which names the node, element or probe by
-/// its place; of more than eight alike the last line tells how many. A ray that cannot hit anything
-/// (can_hit()) hits nothing. Inside and outside of a surface that is not closed is a
-/// std::logic_error, and a loop within a loop of the same ThreadPool; std::bad_alloc and
-/// std::system_error are the system's.
-/// What is noexcept, as proximity() and hit(), checks nothing, for it is asked millions of times in
-/// a second: ids must be those of the surface, a probe must have one to three corners, coordinates
-/// and radii must be finite and below 1e75 m, and radii not negative. Answers to anything else mean
-/// nothing, and reading past the end of a table is not excluded.
+/// its place; of more than eight nodes or probes alike the last line tells how many. A ray that
+/// cannot hit anything (can_hit()) hits nothing. Inside and outside of a surface that is not closed
+/// is a std::logic_error, and a loop within a loop of the same ThreadPool; std::bad_alloc and
+/// std::system_error are the system's. What is noexcept, as proximity() and hit(), checks nothing,
+/// for it is asked millions of times in a second: ids must be those of the surface, a probe must
+/// have one to three corners, coordinates and radii must be finite and below 1e75 m, and radii not
+/// negative. Answers to anything else mean nothing, and reading past the end of a table is not
+/// excluded.
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/closest/primitive_pairs.hpp"
 #include "geometry/primitives/elements.hpp"

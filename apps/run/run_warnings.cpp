@@ -58,9 +58,9 @@ std::string advice_on_pass_throughs(const RunReport& report) {
 
 std::string advice_on_crossings(const RunReport& report) {
   return fmt::format(
-      "membranes went into each other by more than both thicknesses: up to {} pairs of facets or "
-      "cylinders crossed at a time; stiffer contacts, thicker membranes or slower motion keep them "
-      "apart",
+      "membranes went into each other by more than both half thicknesses: up to {} pairs of facets "
+      "or cylinders crossed at a time; stiffer contacts, thicker membranes or slower motion keep "
+      "them apart",
       report.most_crossings);
 }
 

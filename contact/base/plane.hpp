@@ -4,7 +4,6 @@
 #include "contact/base/material.hpp"
 #include "geometry/primitives/elements.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -19,15 +18,16 @@ using geometry::Vec3;
 struct Plane {
   enum class Form : std::uint8_t { flat, cylinder, sphere };
 
-  Vec3 point;   ///< m, any point of a flat one, on the axis of a cylinder, the centre of a ball
-  Vec3 normal;  ///< unit, of a flat one: out of the solid, into the space of the bodies
+  Vec3 point;  ///< m, any point of a flat one, on the axis of a cylinder, the centre of a ball
+  /// Unit, of a flat one: out of the solid, into the space of the bodies; of others of no meaning.
+  Vec3 normal = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();  ///< m/s
   MaterialId material{};
   Form form = Form::flat;
   double radius = 0.0;            ///< m, of a cylinder or ball
   Vec3 axis = Vec3::Zero();       ///< unit, of a cylinder, and about which the others turn
   double angular_velocity = 0.0;  ///< rad/s, about the axis through the point
-  double widening = 0.0;          ///< m/s, of the radius
+  double widening = 0.0;          ///< m/s, of the radius; 0 of a flat one
 
   /// m, of a place over the wall; negative beyond it.
   double height(const Vec3& x) const noexcept {
@@ -65,8 +65,8 @@ struct Plane {
     return sum;
   }
 
-  /// m/s, the fastest that the wall comes nearer to anything.
-  double speed() const noexcept { return std::max(velocity.norm(), std::abs(widening)); }
+  /// m/s, the fastest that the wall may come nearer to anything: turning brings it no nearer.
+  double speed() const noexcept { return velocity.norm() + std::abs(widening); }
 
   /// N/m, how a force (N) along the normal resists a motion across it: the wall comes nearer on
   /// both sides of the lowest place of a bowl.

@@ -9,17 +9,18 @@
 namespace plekton::contact {
 
 /// A dashpot along the normal, as strong as a restitution wants it: c = 2 xi sqrt(m k), with the
-/// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi
-/// (damping_ratio()). It never makes the contact pull.
+/// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi. It never makes
+/// the contact pull. Sources: Tsuji, Tanaka & Ishida, Powder Technology 71 (1992) 239-250; for the
+/// end of the contact Schwager & Poeschel, Granular Matter 9 (2007) 465-469.
 ///
 /// A surface that a sphere meets counts as held: of a light free membrane the restitution is lower.
 /// The push follows the speed of half a step before, which costs time steps where a heavy sphere
-/// meets light nodes: see dynamics::as_stiff_as_damped().
+/// meets light nodes.
 struct Dashpot {
   static constexpr std::string_view name = "dashpot";
 
   struct Properties {
-    double damping_ratio = 0.0;  ///< xi >= 0; damping_ratio() gives that of a restitution
+    double damping_ratio = 0.0;  ///< xi >= 0; properties_of() of law_list.hpp takes a restitution
   };
 
   /// See ChecksProperties.

@@ -89,6 +89,7 @@ class LoadProblems {
   void list(const std::string& name, const PlaneMotion& motion) {
     expect_plane(name, motion.plane);
     expect_finite(name, "velocity", motion.velocity);
+    if (motion.start) expect_finite(name, "point at the start", *motion.start);
   }
 
   void list(const std::string& name, const PlaneServo& servo) {
@@ -163,6 +164,7 @@ class LoadProblems {
                      const std::vector<Vec3>& starts) {
     expect(starts.empty() || starts.size() == nodes.size(), name,
            "must have a place at the start for each of its nodes, or none");
+    for (const Vec3& start : starts) expect_finite(name, "place at the start", start);
   }
 
   void expect(bool holds, const std::string& name, const char* problem) {

@@ -159,6 +159,9 @@ void list_problems(const SurfacePressure& load, const Scene& scene, const std::s
   if (load.by_volume) list_row_problems(*load.by_volume, name, problems);
   if (load.by_volume && (load.gas || load.pressure != 0.0))
     problems << name << ": has a pressure by volume and another pressure or a gas; give one\n";
+  if (load.start_volume && !(*load.start_volume > 0.0 && std::isfinite(*load.start_volume)))
+    problems << name << ": its volume at the start is " << *load.start_volume
+             << " m³; it must be positive and finite\n";
   if (facets.size() != load.facets.size()) return;
   for (const geometry::Facet& facet : facets) {
     for (const NodeId node : facet.nodes) {

@@ -116,7 +116,9 @@ struct MassDamping {
 };
 
 /// A plate that is pressed on the bodies along its normal with (force + pressure area) factor(t);
-/// how it finds its place stands in plane_servo.hpp. Its velocity across the normal stays.
+/// how it finds its place stands in plane_servo.hpp. Its velocity across the normal stays. A
+/// container is pressed all around, by its radius; the area of a cylinder between two planes is
+/// then 2 pi radius times area times their distance, and nothing bounds a ball.
 struct PlaneServo {
   std::size_t plane = 0;
   double force = 0.0;     ///< N, >= 0

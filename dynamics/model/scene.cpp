@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/model/scene.hpp"
 
+#include "dynamics/model/require_index.hpp"
+
 namespace plekton::dynamics {
 
 NodeId Scene::add_node(const Vec3& position, Held held) {
@@ -52,6 +54,7 @@ std::size_t Scene::add_sheet_facet(const std::array<NodeId, 3>& nodes, const She
 
 std::size_t Scene::add_rigid_body(std::span<const NodeId> nodes, const MassProperties& mass,
                                   Held held) {
+  for (const NodeId node : nodes) require_node("add_rigid_body", node, state.size());
   const PrincipalAxes axes = principal_axes(mass.inertia);
   const NodeId reference = add_node(mass.centre, held | Held::by_body);
   state.orientation[index_of(reference)] = axes.orientation;

@@ -48,20 +48,25 @@ struct Scene {
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
   NodeId add_node(const Vec3& position, Held held = Held::nothing);
 
+  // What is added is looked at by check() (scene_check.hpp), but where exceptions are named.
+
   /// Adds a sphere with its node: mass 4/3 pi r³ density, inertia 2/5 m r².
+  /// @param radius, density  m, kg/m³
   geometry::SphereId add_sphere(const Vec3& centre, double radius, double density,
                                 contact::MaterialId material);
 
-  /// Adds a cylinder between nodes: its geometry only.
+  /// Adds a cylinder between nodes: its geometry only. @param radius  m
   void add_cylinder(NodeId a, NodeId b, double radius, contact::MaterialId material);
 
-  /// Adds a thick facet between nodes: its geometry only.
+  /// Adds a thick facet between nodes: its geometry only. @param radius  m, half its thickness
   void add_facet(NodeId a, NodeId b, NodeId c, double radius, contact::MaterialId material);
 
   /// Adds a beam between nodes, at rest as they are now, with half of its mass to either: m += 1/2
   /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016), or
   /// as the last argument says.
+  /// @param density  kg/m³, >= 0
   /// @returns  its place in bonds
+  /// @throws std::invalid_argument for what make_beam() refuses; nothing is added then
   std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density,
                        NodalInertia inertia = NodalInertia::ball);
 
@@ -70,6 +75,7 @@ struct Scene {
   /// resists: what touches it needs a facet of geometry on the same nodes.
   /// @param density  kg/m³, >= 0; 0 where the mass is given in another way, as by add_edge_mass
   /// @returns  its place in sheet_facets
+  /// @throws std::invalid_argument for what make_sheet_facet() refuses; nothing is added then
   std::size_t add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
                               double density, NodalInertia inertia = NodalInertia::ball);
 
@@ -81,6 +87,7 @@ struct Scene {
   /// @param mass   whatever the nodes had; may be zero where all is held
   /// @param held   along and about the axes of the world
   /// @returns  its place in rigid_bodies
+  /// @throws std::out_of_range for a node that does not exist; nothing is added then
   std::size_t add_rigid_body(std::span<const NodeId> nodes, const MassProperties& mass,
                              Held held = Held::nothing);
 };

@@ -25,7 +25,7 @@ class TimeTable {
 
   /// 1 at all times.
   TimeTable() : TimeTable(1.0) {}
-  /// The same number at all times.
+  /// The same number at all times. @throws std::invalid_argument if it is not finite
   explicit TimeTable(double constant);
 
   /// @param rows  at least one, finite, their times increasing

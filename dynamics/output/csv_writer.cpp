@@ -3,8 +3,8 @@
 
 #include "dynamics/output/text.hpp"
 
-#include <cassert>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 namespace plekton::dynamics {
@@ -78,8 +78,10 @@ CsvWriter::~CsvWriter() {
 }
 
 void CsvWriter::add(std::span<const double> row) {
-  assert(row.size() == column_count_ && "one number for each column");
-  assert(file_ && "a row after close()");
+  if (!file_) throw std::logic_error("CsvWriter: a row after close()");
+  if (row.size() != column_count_)
+    throw std::logic_error("CsvWriter: a row of " + std::to_string(row.size()) +
+                           " numbers; there are " + std::to_string(column_count_) + " columns");
   for (std::size_t column = 0; column < row.size(); ++column) {
     if (column > 0) gathered_ += ',';
     append_number(gathered_, row[column]);

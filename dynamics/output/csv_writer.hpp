@@ -42,7 +42,7 @@ class CsvWriter {
 
   /// Appends a row, one number for each column.
   /// @throws OutputError if gathered rows cannot be written; they stay gathered, this one too, and
-  /// flush() tries again.
+  /// flush() tries again. @throws std::logic_error for a row of another length, or after close().
   void add(std::span<const double> row);
   void add(std::initializer_list<double> row) { add(std::span(row.begin(), row.size())); }
 
@@ -56,7 +56,7 @@ class CsvWriter {
   void close();
 
  private:
-  [[maybe_unused]] std::size_t column_count_;  // for the check of each row
+  std::size_t column_count_;
   Flush flush_;
   std::optional<CheckedFile> file_;
   std::string gathered_;

@@ -4,7 +4,9 @@
 #include "dynamics/output/frame_fields.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace plekton::dynamics {
@@ -40,10 +42,19 @@ DataArray labels(const OutputField& field, std::vector<std::int32_t> values) {
   return {std::string(field.name), 1, std::move(values)};
 }
 
+void require_one_each(std::string_view what, std::size_t got, std::size_t count,
+                      std::string_view bodies) {
+  if (got == count) return;
+  std::ostringstream text;
+  text << "frame: " << got << ' ' << what << " for " << count << ' ' << bodies
+       << "; give one for each";
+  throw std::invalid_argument(text.str());
+}
+
 /// The results every node has, for a choice of nodes.
 std::vector<DataArray> node_results(const NodesView& nodes, std::span<const NodeId> chosen) {
   const auto results = [&](const OutputField& field, std::span<const Vec3> values) {
-    assert(values.size() == nodes.position.size() && "one value for each node");
+    require_one_each(field.name, values.size(), nodes.position.size(), "nodes");
     return vectors(field, chosen.size(),
                    [&](std::size_t i) -> const Vec3& { return values[index_of(chosen[i])]; });
   };
@@ -135,7 +146,7 @@ DataArray cell_scalars(const OutputField& field, const SurfaceView& surface, OfL
 constexpr auto kNothing = [](std::size_t) { return 0.0; };
 
 void add_stresses(const SurfaceView& surface, PolyData& data) {
-  assert(surface.stresses.size() == surface.cylinders.size() && "one for each cylinder");
+  require_one_each("stresses", surface.stresses.size(), surface.cylinders.size(), "cylinders");
   const auto add = [&](const OutputField& field, double BondStress::*which) {
     data.cell_arrays.push_back(cell_scalars(
         field, surface, [&](std::size_t i) { return surface.stresses[i].*which; }, kNothing));
@@ -146,7 +157,8 @@ void add_stresses(const SurfaceView& surface, PolyData& data) {
 }
 
 void add_membrane_forces(const SurfaceView& surface, PolyData& data) {
-  assert(surface.membrane_forces.size() == surface.facets.size() && "one for each facet");
+  require_one_each("membrane forces", surface.membrane_forces.size(), surface.facets.size(),
+                   "facets");
   const auto add = [&](const OutputField& field, double PrincipalForces::*which) {
     data.cell_arrays.push_back(cell_scalars(field, surface, kNothing, [&](std::size_t i) {
       return surface.membrane_forces[i].*which;
@@ -157,7 +169,7 @@ void add_membrane_forces(const SurfaceView& surface, PolyData& data) {
 }
 
 void add_tractions(const SurfaceView& surface, PolyData& data) {
-  assert(surface.tractions.size() == surface.facets.size() && "one for each facet");
+  require_one_each("tractions", surface.tractions.size(), surface.facets.size(), "facets");
   const std::size_t lines = surface.cylinders.size();
   data.cell_arrays.push_back(
       cell_scalars(frame_fields::kPressure, surface, kNothing,
@@ -199,7 +211,7 @@ void add_cell_arrays(const SurfaceView& surface, PolyData& data) {
 
 PolyData grains_frame(const GrainsView& grains, double time) {
   const std::size_t count = grains.spheres.size();
-  assert(grains.id.size() == count && "one id for each sphere");
+  require_one_each("ids", grains.id.size(), count, "spheres");
   std::vector<NodeId> nodes(count);
   PolyData data;
   for (std::size_t i = 0; i < count; ++i) {
@@ -226,7 +238,7 @@ PolyData grains_frame(const GrainsView& grains, double time) {
 }
 
 PolyData surface_frame(const SurfaceView& surface, double time) {
-  assert(surface.tension.size() == surface.cylinders.size() && "one tension for each cylinder");
+  require_one_each("tensions", surface.tension.size(), surface.cylinders.size(), "cylinders");
   const std::vector<NodeId> nodes = used_nodes(surface);
   PolyData data;
   data.time = time;

@@ -14,8 +14,9 @@
 #include <cstdint>
 #include <span>
 
-/// What a scene looks like at one moment, as data sets for ParaView: positions in double, results
-/// in single precision.
+/// What a scene looks like at one moment (time in s), as data sets for ParaView: positions in
+/// double, results in single precision. Results that are not one for each body, where that is said,
+/// are refused with std::invalid_argument; ids of nodes are not checked.
 namespace plekton::dynamics {
 
 /// State of all nodes of a scene, indexed by NodeId; spans of the same length.

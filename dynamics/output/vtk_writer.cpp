@@ -6,8 +6,9 @@
 #include "dynamics/output/vtk_blocks.hpp"
 
 #include <bit>
-#include <cassert>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -26,6 +27,14 @@ constexpr std::string_view vtk_type() noexcept {
 }
 
 constexpr std::string_view kEnd = "\n  </AppendedData>\n</VTKFile>\n";
+
+/// @throws std::invalid_argument for an array of another length
+void require_length(const DataArray& array, std::size_t got, std::size_t count) {
+  if (got == array.components * count) return;
+  throw std::invalid_argument("array \"" + array.name + "\": " + std::to_string(got) +
+                              " numbers; expected " + std::to_string(array.components) +
+                              " for each of " + std::to_string(count) + " points or cells");
+}
 
 /// The two parts of a file, growing side by side: an array adds its description to one and its
 /// bytes to the other.
@@ -47,12 +56,12 @@ struct Document {
   }
 
   void add_arrays(std::string_view section, const std::vector<DataArray>& arrays,
-                  [[maybe_unused]] std::size_t count) {
+                  std::size_t count) {
     xml.append("      <").append(section).append(">\n");
     for (const DataArray& array : arrays) {
       std::visit(
           [&](const auto& values) {
-            assert(values.size() == array.components * count && "one tuple for each point or cell");
+            require_length(array, values.size(), count);
             add_array(array.name, array.components, std::span(values));
           },
           array.values);

@@ -51,7 +51,7 @@ struct PolyData {
 
 /// Writes VTK's XML PolyData format: appended raw data in zlib blocks, positions as Float64.
 /// Without points or cells it is a valid empty data set. The file appears complete or not at all.
-/// @throws OutputError
+/// @throws OutputError; std::invalid_argument naming an array of another length
 /// Source: VTK File Formats, "XML File Formats" (docs.vtk.org).
 void write_vtp(const std::filesystem::path& file, const PolyData& data);
 

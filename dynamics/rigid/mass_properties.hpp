@@ -35,7 +35,7 @@ MassProperties mass_of(const VolumeMoments& moments, double density, const Vec3&
 /// Of two bodies together, without what they may have in common twice.
 MassProperties together(const MassProperties& a, const MassProperties& b) noexcept;
 
-/// The same distribution with another mass (kg).
+/// The same distribution with another mass (kg). @param body  has a mass
 MassProperties scaled_to(const MassProperties& body, double mass) noexcept;
 
 /// Of what a closed mesh encloses, exact but for rounding: the sum of tetrahedra from a point to

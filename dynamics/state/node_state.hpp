@@ -90,8 +90,8 @@ inline Vec3 free_turns(Held held) noexcept {
 
 /// What does not change about a node. Arrays of equal length, by NodeId.
 struct NodeProperties {
-  std::vector<double> mass;     ///< kg, > 0
-  std::vector<double> inertia;  ///< kg m², > 0, the same about every axis
+  std::vector<double> mass;     ///< kg, > 0 where it may move, else >= 0
+  std::vector<double> inertia;  ///< kg m², > 0 where it may turn, else >= 0; about every axis
   std::vector<Held> held;
 
   std::size_t size() const noexcept { return mass.size(); }

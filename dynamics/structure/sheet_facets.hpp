@@ -28,10 +28,11 @@ namespace plekton::dynamics {
 ///
 /// with N = E t / (1 - nu²) ((1 - nu) E + nu tr E I), plane stress (St. Venant-Kirchhoff): the
 /// constant-strain triangle. q_ij is the distance at which the tangent plane of node i passes node
-/// j, and K the discrete Kirchhoff triangle, so for small deflections this is Kirchhoff's plate.
-/// w_i is the angle between node i and the mean rotation of the facet about the normal; its energy
-/// is there only because nodes have rotations about the normal, of which a sheet knows nothing, and
-/// is of the order (t / size)² of the rest.
+/// j, and K the discrete Kirchhoff triangle (Batoz, Bathe & Ho, Int. J. Numer. Meth. Engng 15
+/// (1980) 1771-1812), so for small deflections this is Kirchhoff's plate. w_i is the angle between
+/// node i and the mean rotation of the facet about the normal; its energy is there only because
+/// nodes have rotations about the normal, of which a sheet knows nothing, and is of the order (t /
+/// size)² of the rest.
 ///
 /// Force and torque are the exact derivatives of U, polynomials of positions and normals: they are
 /// defined wherever the nodes are, also in a facet without area. U does not change with any rigid

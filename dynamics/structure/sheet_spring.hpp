@@ -20,7 +20,7 @@ struct SheetSpring {
   double tensile_stiffness;  ///< N/m, E t / (1 - nu²)
   double poisson_ratio;
   double turning;            ///< N m, against turning of a node in the plane of the facet
-  Mat6 bending;              ///< N/m, see plate_bending
+  Mat6 bending;              ///< N/m, of the discrete Kirchhoff triangle
   std::array<Quat, 3> rest;  ///< see SheetFacet
 };
 

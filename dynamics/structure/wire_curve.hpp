@@ -33,7 +33,7 @@ struct WireCurve {
     double strain;  ///< -, above that of the point before, the first one above 0
     double force;   ///< N, >= 0; of the first point > 0
   };
-  std::vector<Point> points;
+  std::vector<Point> points;  ///< at least one: what follows needs it, and does not check
 
   /// N for each unit of strain, of the first piece.
   double first_slope() const noexcept { return points.front().force / points.front().strain; }

@@ -48,6 +48,7 @@ int vector_width();
 
 /// From now on vectors have so many numbers: to compare widths within one program. Not while
 /// kernels run. @param width  2, 4 or 8, at most widest_vectors()
+/// @throws std::invalid_argument, as chosen_vector_width does
 void set_vector_width(int width);
 
 /// Calls kernel(Width<W>{}), compiled for vectors of W = vector_width() numbers. The kernel has to

@@ -46,7 +46,7 @@ class BroadPhase {
   BroadPhase& operator=(BroadPhase&&) noexcept;
   ~BroadPhase();
 
-  /// Takes any number of boxes, also none. A box's place in the span is its index from now on.
+  /// Takes up to 2^30 boxes, also none. A box's place in the span is its index from now on.
   void rebuild(std::span<const Box> boxes);
 
   /// Moves the boxes, any way and any distance. Several times cheaper than rebuild, but the further

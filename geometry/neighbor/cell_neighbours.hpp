@@ -31,9 +31,10 @@ class CellNeighbours {
  public:
   /// @param surface       must outlive this
   /// @param rest          m, where the nodes are when the structures are at rest
-  /// @param skin          m, >= 0; 0 makes the list anew whenever anything moved
+  /// @param skin          m, >= 0; 0 makes the list anew in each update whose way is not 0
   /// @param self_contact  whether cells of one structure are listed
-  /// @throws std::length_error where the lists of near nodes would take GB (near_nodes.hpp)
+  /// @throws std::invalid_argument for a skin as Skin does; std::length_error where the lists of
+  /// near nodes would take GB (near_nodes.hpp)
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
 
   /// Pairs within a group are not listed. To be called before the first update.

@@ -30,8 +30,10 @@ struct NearCells {
 /// some node has moved by more than half the skin since they were made (skin.hpp has the proof).
 class Neighbours {
  public:
-  /// @param skin  m, >= 0; 0 makes the lists anew whenever anything moved
+  /// @param spheres, surface  must outlive this; their nodes are not checked
+  /// @param skin  m, >= 0; 0 makes the lists anew in each update whose way is not 0
   /// @param reach  m, at which distance of the surfaces a pair is wanted already
+  /// @throws std::invalid_argument for a skin as Skin does
   Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
              double reach = 0.0);
 

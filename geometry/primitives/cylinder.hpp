@@ -12,7 +12,7 @@ namespace plekton::geometry {
 /// a sphere.
 struct Cylinder {
   std::array<NodeId, 2> nodes;
-  double radius;  ///< m, > 0
+  double radius;  ///< m, >= 0; of what is in contact > 0
 };
 
 /// Corners of the core (m).

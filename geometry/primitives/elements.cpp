@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/primitives/elements.hpp"
 
+#include "geometry/base/largest_coordinate.hpp"
 #include "geometry/base/problems.hpp"
 
 #include <algorithm>
@@ -57,8 +58,9 @@ class ElementProblems {
                        << "; merge duplicate nodes or delete the element\n";
       }
     }
-    if (!(radius >= 0.0 && std::isfinite(radius))) {
-      line(kind, id) << " has radius " << radius << " m; it must be finite and not negative\n";
+    if (!(radius >= 0.0 && radius < kLargestCoordinate)) {
+      line(kind, id) << " has radius " << radius << " m; it must be at least 0 and below "
+                     << kLargestCoordinate << " m\n";
     }
   }
 

@@ -33,7 +33,7 @@ class Surface {
   /// @throws std::invalid_argument listing every problem: more nodes than a NodeId counts (and
   ///         nothing else then), a node id out of range, an element that
   ///         repeats a node, two facets on the same three nodes, a radius that is negative or not
-  ///         finite, connected elements with different radii.
+  ///         below 1e75 m, connected elements with different radii.
   Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
           std::size_t node_count);
 
@@ -43,7 +43,7 @@ class Surface {
   ///
   /// A side of a facet that is gone stays only as the side of another facet or with a cylinder
   /// along it. Linear in the number of elements, times log for sorting the edges.
-  /// @param cylinders  along edges of this surface
+  /// @param cylinders  along edges of this surface; radii, also of facets, are not looked at
   /// @param facets     of this surface, in their order
   /// @throws std::invalid_argument if an element is none of this surface, or the order is another
   Surface left_with(std::span<const Cylinder> cylinders, std::span<const Facet> facets) const;

@@ -11,7 +11,7 @@ namespace plekton::geometry {
 /// radius. Collinear nodes are allowed.
 struct Facet {
   std::array<NodeId, 3> nodes;
-  double radius;  ///< m, > 0
+  double radius;  ///< m, >= 0; of what is in contact > 0
 };
 
 /// Corners of the core (m).

@@ -11,7 +11,7 @@ namespace plekton::geometry {
 /// Ball around one node: the Minkowski sum of a point with a ball.
 struct Sphere {
   std::array<NodeId, 1> nodes;
-  double radius;  ///< m, > 0
+  double radius;  ///< m, >= 0; of what is in contact > 0
 };
 
 /// Corners of the core (m).

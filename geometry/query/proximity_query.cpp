@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/query/proximity_query.hpp"
 
+#include "geometry/base/largest_coordinate.hpp"
 #include "geometry/base/problems.hpp"
 #include "geometry/closest/primitive_pairs.hpp"
 #include "geometry/query/number_checks.hpp"
@@ -25,9 +26,9 @@ void list_sphere_problems(std::span<const Sphere> spheres, std::size_t node_coun
       problems << "sphere " << i << " names node " << node << ", but there are " << node_count
                << " nodes\n";
     }
-    if (!(spheres[i].radius >= 0.0 && std::isfinite(spheres[i].radius))) {
+    if (!(spheres[i].radius >= 0.0 && spheres[i].radius < kLargestCoordinate)) {
       problems << "sphere " << i << " has radius " << spheres[i].radius
-               << " m; it must be finite and not negative\n";
+               << " m; it must be at least 0 and below " << kLargestCoordinate << " m\n";
     }
   }
 }

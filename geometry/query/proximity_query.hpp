@@ -47,8 +47,9 @@ struct ElementPair {
 /// between two rebuilds takes O(elements + candidates). It can be moved, not copied.
 class ProximityQuery {
  public:
+  /// @param threads  >= 1, of find(); fewer are refused with std::invalid_argument before all else
   /// @throws std::invalid_argument listing every problem of the elements (see Surface; spheres
-  ///         whose node does not exist or whose radius is negative or not finite) and of
+  ///         whose node does not exist or whose radius is negative or not below 1e75 m) and of
   ///         largest_gap
   ProximityQuery(Elements elements, std::size_t node_count, const PairChoice& choice,
                  int threads = 1);

@@ -76,6 +76,14 @@ TEST(Models, RefusePairsOfMaterialsThatAreNone) {
               HasSubstr("there is no material -1"));
 }
 
+TEST(Models, RefuseAPairThatIsGivenInBothOrders) {
+  const auto given = [](MaterialId a, MaterialId b) {
+    return linear_frictional({{{a, b}, {}}, {{b, a}, {.normal_stiffness = 1e4}}});
+  };
+  EXPECT_THAT(problems_of(given(MaterialId{0}, MaterialId{1})),
+              HasSubstr("materials 1 and 0 as a pair: given in both orders"));
+}
+
 TEST(Models, RefuseALawThatIsNone) {
   AnyLaw::Properties none;
   none.law = nullptr;

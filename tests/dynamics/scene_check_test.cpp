@@ -210,6 +210,9 @@ TEST(SceneCheck, RefusesNumbersOfMaterialsAndContainersThatAreNone) {
     scene.planes[0].widening = widening;
     EXPECT_THAT(problems_of(scene), HasSubstr("plane 0: its widening is")) << widening;
   }
+  Scene scene = sound_scene();
+  scene.planes[0].widening = 0.1;
+  EXPECT_THAT(problems_of(scene), HasSubstr("plane 0: it is flat and gets wider by 0.1 m/s"));
 }
 
 TEST(SceneCheck, WantsAFlagOfAbsenceForEachNodeOrNone) {
@@ -219,6 +222,27 @@ TEST(SceneCheck, WantsAFlagOfAbsenceForEachNodeOrNone) {
 
   scene.is_absent.assign(4, false);
   EXPECT_EQ(problems_of(scene), "");
+}
+
+TEST(SceneCheck, RefusesStartsOfLoadsThatAreNoPlaces) {
+  const Vec3 nowhere(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  Scene scene = sound_scene();
+  PrescribedMotion motion;
+  motion.nodes = {NodeId{1}};
+  motion.start = {nowhere};
+  scene.loads.motions.push_back(motion);
+  PlaneMotion plane;
+  plane.start = nowhere;
+  scene.loads.plane_motions.push_back(plane);
+  SurfacePressure pressure;
+  pressure.facets = {geometry::FaceId{0}};
+  pressure.start_volume = 0.0;
+  scene.loads.pressures.push_back(pressure);
+
+  EXPECT_THAT(problems_of(scene),
+              testing::AllOf(HasSubstr("prescribed motion 0: its place at the start (  0 nan   0)"),
+                             HasSubstr("plane motion 0: its point at the start (  0 nan   0)"),
+                             HasSubstr("its volume at the start is 0 m³; it must be positive")));
 }
 
 }  // namespace

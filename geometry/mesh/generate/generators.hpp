@@ -6,8 +6,8 @@
 #include <cstdint>
 
 /// Meshes from a few numbers. All share their nodes; lengths in m. Each throws MeshError for a
-/// length that is not positive and finite, for a number of divisions below its least, and before
-/// anything is made for more nodes than their numbers count.
+/// length that is not positive and below 1e75 m, for a number of divisions below its least, and
+/// before anything is made for more nodes than their numbers count.
 namespace plekton::geometry {
 
 /// How the cells of a sheet are cut.
@@ -40,7 +40,7 @@ struct Tube {
 Mesh tube(const Tube& tube);
 
 /// Sphere around the origin with its nodes on the given radius: an icosahedron, every facet cut
-/// into four as often as told (at least 0): 20 * 4^subdivisions facets, facing outward.
+/// into four as often as told (0 to 12): 20 * 4^subdivisions facets, facing outward.
 Mesh icosphere(double radius, int subdivisions);
 
 /// Closed box from the origin to a corner, facing outward, each side cut into cells of two facets.

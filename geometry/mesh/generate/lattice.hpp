@@ -11,8 +11,8 @@
 
 /// Nets, grids and chains: bars over shared nodes, with nothing between them. Nets and grids lie in
 /// the plane z = 0, centred on the origin; lengths in m. Each generator throws MeshError for a
-/// length that is not positive and finite, for a count below its least, and before anything is made
-/// for more nodes than their numbers count.
+/// length that is not positive and below 1e75 m, for a count below its least, and before anything
+/// is made for more nodes than their numbers count.
 namespace plekton::geometry {
 
 /// What a bar of a lattice is, because its parts differ in section and stiffness.

@@ -14,9 +14,10 @@ struct Polygon {
 
 /// Mesh of a polygon in a plane, convex or not, with no node beside its corners, cut along
 /// diagonals: no facet is without area, by exact signs.
-/// @throws MeshError for points that are not finite, two equal ones in a row, points that are all
-///         on one line (to 1e-9 of their distance), one that is out of the plane of the others by
-///         more than 1e-4 of the largest distance from the first, and sides that touch or cross
+/// @throws MeshError for fewer than 3 or more than 1024 points, any that is not finite, two equal
+///         ones in a row, points that are all on one line (to 1e-9 of their distance), one that is
+///         out of the plane of the others by more than 1e-4 of the largest distance from the first,
+///         and sides that touch or cross
 Mesh polygon(const Polygon& polygon);
 
 }  // namespace plekton::geometry

@@ -25,6 +25,7 @@ PolygonSoup read_mesh_file(const std::filesystem::path& path);
 /// The same from memory. Time and memory are linear in the size of the text, whatever counts it
 /// claims (a .vtp file that unpacks to more than 16 numbers a byte is refused).
 /// @param name  What messages call it.
+/// @throws MeshError as read_mesh_file()
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 
 /// Format by content where it starts with words that only one format has ("ply", "$MeshFormat",

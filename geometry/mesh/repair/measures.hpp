@@ -28,7 +28,7 @@ struct MeshMeasures {
   std::optional<double> volume;  ///< only of a closed mesh whose facets agree
   std::optional<bool>
       bounds_volume;  ///< whether it parts an inside from an outside, every part facing outward;
-      ///< only of a closed mesh that does not intersect itself, and if CGAL can tell
+  ///< only of a closed mesh that does not intersect itself, and if CGAL can tell
   std::optional<std::size_t> self_intersections;  ///< pairs of facets; no value if not asked for
   double smallest_angle = 0.0;                    ///< degrees
   double shortest_edge = 0.0;
@@ -41,7 +41,8 @@ struct MeshMeasures {
 /// not.
 /// Lengths are right from 1e-150 m on, areas of facets from 1e-300 m²; a volume below 1e-308 m³
 /// vanishes.
-/// @param intersections  Look for facets that intersect, by far the most expensive part.
+/// @param intersections  Look for facets that intersect, by far the most expensive part; facets have
+///                       to have an area for that, which is not checked.
 /// @throws MeshError for facets that name a point which is not there
 MeshMeasures measure(const Mesh& mesh, bool intersections);
 

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace plekton::geometry {
@@ -43,6 +44,16 @@ void require_remeshable(const MeshMeasures& measures, double target_edge) {
   else
     return;
   throw MeshError(text.str());
+}
+
+/// @throws MeshError for a facet that names a point twice
+void require_three_points_each(const Mesh& mesh) {
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto& [a, b, c] = mesh.facets[f];
+    if (a != b && b != c && c != a) continue;
+    throw MeshError("cannot be remeshed: facet " + std::to_string(f) +
+                    " names a point twice; take it out, as repair() does");
+  }
 }
 
 /// Edges and nodes that remeshing has to respect.
@@ -110,6 +121,7 @@ Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
 
 Mesh remesh(const Mesh& mesh, double target_edge) {
   require_corners(mesh);
+  require_three_points_each(mesh);
   std::ostringstream what;
   what << "a target edge of " << target_edge << " m";
   require_resolved(mesh, target_edge, what.str());

@@ -16,10 +16,13 @@ inline constexpr double kFeatureAngle = 40.0;
 /// away from where they were. If facets of the outcome intersect, short edges of lines stay as well
 /// where that makes fewer of them. Other nodes lie on the old surface up to rounding.
 /// @param target_edge  m.
-/// @throws MeshError if the length is not positive and finite or would make more than 2e7 facets,
-///         for facets that name a point which is not there, and for a mesh that is not manifold or
-///         whose facets disagree, where remeshing would tear shared nodes apart. Source: Botsch &
-///         Kobbelt, A remeshing approach to multiresolution modeling (2004).
+/// @param mesh  with finite points, and facets that have an area: repair() sees to both
+/// @throws MeshError if the length is not positive and finite, would make more than 2e7 facets, or
+///         is below 256 roundings of the coordinates; for facets that name a point twice or one
+///         that is not there; for a mesh that is not 1e-30 to 1e30 m large, not manifold, or whose
+///         facets disagree, where remeshing would tear shared nodes apart; and what CGAL throws
+///         where it gives up. Source: Botsch & Kobbelt, A remeshing approach to multiresolution
+///         modeling (2004).
 Mesh remesh(const Mesh& mesh, double target_edge);
 
 }  // namespace plekton::geometry

@@ -9,7 +9,8 @@
 namespace plekton::geometry {
 
 struct RepairOptions {
-  /// m. Points within this distance of each other become one; 0 merges only equal points.
+  /// m. Points that steps of at most this length join become one, chains of them however long, at
+  /// the first by x, then y, then z; 0 merges only equal points.
   double weld_distance = 0.0;
   /// Turn facets over so that neighbours agree and closed parts face outward.
   bool orient = true;
@@ -17,7 +18,7 @@ struct RepairOptions {
   bool find_intersections = true;
   /// Refuse a mesh whose facets still intersect at the end.
   bool refuse_intersections = false;
-  /// Fill loops of border edges (see fill_holes).
+  /// Fill loops of border edges, of at most 2000 nodes each.
   bool fill_holes = false;
   /// m. Holes of a larger perimeter stay open, as the rim of a sheet should.
   double longest_hole = std::numeric_limits<double>::infinity();

@@ -13,8 +13,8 @@
 namespace plekton::geometry {
 
 enum class MeshVerdict : std::uint8_t {
-  ok,                    ///< nothing was changed but equal points merged and flat polygons cut
-  repaired,              ///< facets were dropped or turned over, or points welded
+  ok,        ///< nothing was changed but equal points merged and flat polygons cut
+  repaired,  ///< facets dropped or turned, points welded or removed, holes filled, remeshed
   usable_with_warnings,  ///< something remains that the user should know
   refused                ///< there is no mesh to use
 };

@@ -299,7 +299,7 @@ TEST(Defects, ShellsThatCrossKeepTheirEnergyAndAreNotPassedOverInSilence) {
   ASSERT_EQ(defect.outcome().exit_code, 0) << defect.outcome().err;
   EXPECT_GT(defect.report().at("most_crossings").get<int>(), 0);
   EXPECT_THAT(defect.outcome().err,
-              HasSubstr("membranes went into each other by more than both thicknesses"));
+              HasSubstr("membranes went into each other by more than both half thicknesses"));
   EXPECT_LT(defect.closure(), 0.01);
 }
 

@@ -136,5 +136,23 @@ TEST(Plane, IsToldByADirectionAndARadius) {
   EXPECT_EQ(sphere_of(1.0, Vec3::Zero()).direction(), Vec3::Zero());
 }
 
+TEST(Plane, ComesNearerAsFastAsItMovesAndGetsNarrowerTogether) {
+  Plane cylinder = cylinder_of(2.0, Vec3::Zero(), Vec3::UnitZ());
+  cylinder.velocity = Vec3(3.0, 0.0, 0.0);
+  cylinder.widening = -0.5;
+  cylinder.angular_velocity = 100.0;
+
+  const Vec3 behind(-2.0, 0.0, 0.0);  // where both bring it nearer
+
+  EXPECT_EQ(cylinder.velocity_at(behind).dot(cylinder.normal_at(behind)), 3.5);
+  EXPECT_EQ(cylinder.speed(), 3.5);
+}
+
+TEST(Plane, HasNoNormalUnlessOneIsGiven) {
+  const Plane ball{.point = Vec3::Zero(), .form = Form::sphere, .radius = 1.0};
+
+  EXPECT_EQ(ball.normal, Vec3::Zero());
+}
+
 }  // namespace
 }  // namespace plekton::contact::plane_test

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/model/scene.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
+#include <stdexcept>
 
 namespace plekton::dynamics::scene_test {
 namespace {
@@ -43,6 +46,20 @@ TEST(Scene, PutsABeamAtRestBetweenTurnedNodes) {
             1e-15);
   EXPECT_LT((scene.state.orientation[1] * beam.rest_b * Vec3::UnitX() - Vec3::UnitY()).norm(),
             1e-15);
+}
+
+TEST(Scene, AddsNoRigidBodyOfNodesThatDoNotExist) {
+  Scene scene;
+  const NodeId node = scene.add_node(Vec3::Zero());
+
+  EXPECT_THAT(
+      [&] {
+        scene.add_rigid_body(std::array{node, NodeId{7}}, {});
+      },
+      testing::ThrowsMessage<std::out_of_range>(testing::HasSubstr("add_rigid_body")));
+  EXPECT_THROW(scene.add_rigid_body(std::array{NodeId{-1}}, {}), std::out_of_range);
+  EXPECT_EQ(scene.state.size(), 1u);
+  EXPECT_TRUE(scene.rigid_bodies.empty());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <stdexcept>
 
 namespace plekton::dynamics::csv_writer_test {
 namespace {
@@ -172,6 +173,22 @@ TEST(CsvWriter, RefusesToGoOnWithAnotherFileAndLeavesThatAsItIs) {
   EXPECT_THAT(go_on("missing.csv", kept), is_refused("missing.csv"));
   EXPECT_EQ(bytes_of(folder / "short.csv"), kHead + "0,");
   EXPECT_THAT(folder.names(), testing::ElementsAre("other.csv", "short.csv"));
+}
+
+TEST(CsvWriter, RefusesRowsOfAnotherLengthAndRowsAfterItsEnd) {
+  const TemporaryFolder folder;
+  CsvWriter csv(folder / "energy.csv", kColumns);
+  csv.add({0.0, 1.0});
+
+  EXPECT_THAT([&] { csv.add({1.0}); },
+              ThrowsMessage<std::logic_error>(HasSubstr("1 numbers; there are 2 columns")));
+  csv.close();
+  EXPECT_THAT(
+      [&] {
+        csv.add({1.0, 2.0});
+      },
+      ThrowsMessage<std::logic_error>(HasSubstr("after close()")));
+  EXPECT_EQ(bytes_of(folder / "energy.csv"), kHead + "0,1\n");
 }
 
 }  // namespace

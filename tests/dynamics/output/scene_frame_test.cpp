@@ -282,5 +282,40 @@ TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {
   EXPECT_EQ(contacts.cell_arrays.size(), contact_fields().size());
 }
 
+TEST(SceneFrames, RefuseResultsThatAreNotOneForEachBody) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(0), node(1), node(2)}, 0.2}};
+  const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
+  const std::array<Sphere, 1> spheres = {Sphere{{node(2)}, 0.5}};
+  const std::array<double, 1> tension{};
+  const std::array<PrincipalForces, 2> forces{};
+  NodesView short_view = nodes.view();
+  short_view.velocity = short_view.velocity.first(4);
+  const auto is_refused = [](const char* why) {
+    return testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr(why));
+  };
+
+  EXPECT_THAT(
+      [&] {
+        surface_frame({nodes.view(), cylinders, {}, facets}, 0.0);
+      },
+      is_refused("0 tensions for 1 cylinders"));
+  EXPECT_THAT(
+      [&] {
+        surface_frame({nodes.view(), cylinders, tension, facets, forces}, 0.0);
+      },
+      is_refused("2 membrane forces for 1 facets"));
+  EXPECT_THAT(
+      [&] {
+        grains_frame({nodes.view(), spheres, {}}, 0.0);
+      },
+      is_refused("0 ids for 1 spheres"));
+  EXPECT_THAT(
+      [&] {
+        surface_frame({short_view, cylinders, tension, facets}, 0.0);
+      },
+      is_refused("4 velocity for 5 nodes"));
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::scene_frame_test

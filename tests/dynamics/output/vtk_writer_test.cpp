@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstring>
 #include <random>
+#include <stdexcept>
 
 namespace plekton::dynamics::vtk_writer_test {
 namespace {
@@ -159,6 +160,18 @@ TEST(WriteVtp, LeavesNoFileOnAFullDisk) {
   }
 
   EXPECT_THAT(message, testing::HasSubstr("a.vtp.part: cannot write: File too large"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(WriteVtp, RefusesArraysOfAnotherLength) {
+  const TemporaryFolder folder;
+  PolyData data;
+  data.points = {Vec3::Zero(), Vec3::UnitX()};
+  data.point_arrays.push_back({"velocity", 3, std::vector<float>(5)});
+
+  EXPECT_THAT([&] { write_vtp(folder / "a.vtp", data); },
+              ThrowsMessage<std::invalid_argument>(testing::HasSubstr(
+                  "array \"velocity\": 5 numbers; expected 3 for each of 2 points or cells")));
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 

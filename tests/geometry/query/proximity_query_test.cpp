@@ -239,8 +239,8 @@ TEST(ProximityQuery, ListsAllProblemsOfItsElementsTogether) {
     EXPECT_STREQ(error.what(),
                  "sphere 1 names node 5, but there are 3 nodes\n"
                  "sphere 2 names node -1, but there are 3 nodes\n"
-                 "sphere 2 has radius -0.1 m; it must be finite and not negative\n"
-                 "sphere 3 has radius inf m; it must be finite and not negative\n"
+                 "sphere 2 has radius -0.1 m; it must be at least 0 and below 1e+75 m\n"
+                 "sphere 3 has radius inf m; it must be at least 0 and below 1e+75 m\n"
                  "largest gap is -1 m; it must be positive and finite\n"
                  "surface: facet 0 repeats node 1; merge duplicate nodes or delete the element");
   }

@@ -177,6 +177,9 @@ TEST(Remesh, RefusesWhatItWouldTearApartAndLengthsThatMakeNoMesh) {
   EXPECT_THAT(message_of([&] { remesh(sphere, -0.1); }), HasSubstr("positive length"));
   EXPECT_THAT(message_of([&] { remesh(sphere, std::nan("")); }), HasSubstr("positive length"));
   EXPECT_THAT(message_of([&] { remesh(sphere, 1e-6); }), HasSubstr("use a longer edge"));
+  Mesh folded = sphere;
+  folded.facets[3][1] = folded.facets[3][0];
+  EXPECT_THAT(message_of([&] { remesh(folded, 0.1); }), HasSubstr("facet 3 names a point twice"));
 }
 
 TEST(Wrap, MakesOneClosedShellOfAnything) {
