@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -15,13 +16,30 @@ bool is_blank(char c) {
   return kBlanks.find(c) != std::string_view::npos;
 }
 
+/// Of a number without sign that is not 0: what it is multiplied by, as a power of ten.
+std::int64_t exponent_of(std::string_view digits) {
+  const std::size_t e = digits.find_first_of("eE");
+  if (e == std::string_view::npos) return 0;
+  std::string_view text = digits.substr(e + 1);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t exponent = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
+  constexpr std::int64_t kMost = std::int64_t{1} << 62;  // of more digits than there is memory for
+  if (error == std::errc::result_out_of_range) return text.starts_with('-') ? -kMost : kMost;
+  return std::clamp(exponent, -kMost, kMost);
+}
+
+/// The power of ten of the first digit of a number without sign that is not 0.
+std::int64_t magnitude_of(std::string_view digits) {
+  const std::string_view mantissa = digits.substr(0, digits.find_first_of("eE"));
+  const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  const auto first = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
+  return exponent_of(digits) + point - first - (first < point ? 1 : 0);
+}
+
 // from_chars leaves the value alone when it does not fit; tell too large from too small.
 double out_of_range_value(std::string_view digits, bool negative) {
-  const std::size_t exponent = digits.find_first_of("eE");
-  const bool tiny = exponent != std::string_view::npos
-                        ? exponent + 1 < digits.size() && digits[exponent + 1] == '-'
-                        : digits.starts_with('0') || digits.starts_with('.');
-  if (tiny) return 0.0;
+  if (magnitude_of(digits) < 0) return 0.0;
   const double infinity = std::numeric_limits<double>::infinity();
   return negative ? -infinity : infinity;
 }

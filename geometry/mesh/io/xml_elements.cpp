@@ -95,6 +95,7 @@ class XmlReader {
 
   void read_start_tag() {
     XmlElement element;
+    if (open_.size() == kMostLevels) fail("at most 64 levels of elements", "more");
     element.line = line_;
     element.depth = open_.size();
     pass(at_ + 1);
@@ -109,7 +110,6 @@ class XmlReader {
                                 : std::min(bytes_.find('<', at_), bytes_.size());
     if (!is_empty) {
       element.text = bytes_.substr(at_, end - at_);
-      if (open_.size() == kMostLevels) fail("at most 64 levels of elements", "more");
       open_.push_back(elements_.size());
     }
     elements_.push_back(std::move(element));

@@ -102,7 +102,8 @@ std::optional<bool> bounds_volume(const Mesh& mesh) {
   for (const auto vertex : unused) surface.remove_vertex(vertex);
   surface.collect_garbage();
   if (!CGAL::is_closed(surface)) return std::nullopt;
-  return PMP::does_bound_a_volume(surface);
+  // Parts that all face the wrong way bound what is around them.
+  return PMP::does_bound_a_volume(surface) && PMP::is_outward_oriented(surface);
 }
 
 }  // namespace plekton::geometry

@@ -81,6 +81,11 @@ TEST(ParseNumber, IsInfiniteWhereItIsTooLargeAndZeroWhereItIsTooSmall) {
            {"0." + zeros + "1", 0.0},
            {"-." + zeros + "1", 0.0},
            {"0e999", 0.0},
+           {"1" + zeros + "e-10", kInfinity},
+           {"0." + zeros + "1e5", 0.0},
+           {"01" + zeros, kInfinity},
+           {"-0.01e99999999999999999999", -kInfinity},
+           {"100e-99999999999999999999", 0.0},
            {"1.7976931348623157e308", std::numeric_limits<double>::max()},
            {"4.9406564584124654e-324", std::numeric_limits<double>::denorm_min()}})
     EXPECT_EQ(parse_number(text), expected) << text.substr(0, 10);

@@ -139,6 +139,7 @@ TEST(ReadXml, NamesTheLineAndTheTagThatDoesNotMatch) {
 TEST(ReadXml, TakesSixtyFourLevels) {
   EXPECT_EQ(message_of(nested(64, "")), "accepted");
   EXPECT_THAT(message_of(nested(65, "")), HasSubstr("expected at most 64 levels of elements"));
+  EXPECT_THAT(message_of(nested(64, "<b/>")), HasSubstr("expected at most 64 levels of elements"));
 }
 
 }  // namespace

@@ -103,6 +103,8 @@ TEST(BoundsVolume, AsksThatEveryClosedPartFacesAwayFromWhatItParts) {
   EXPECT_EQ(bounds_volume(together({outer, beside})), true);
   EXPECT_EQ(bounds_volume(together({outer, inside_out(beside)})), false);
   EXPECT_EQ(bounds_volume(together({outer, inside_out(inner)})), true) << "a hollow box";
+  EXPECT_EQ(bounds_volume(inside_out(outer)), false);
+  EXPECT_EQ(bounds_volume(inside_out(together({outer, beside}))), false);
   EXPECT_EQ(bounds_volume(together({outer, inner})), false) << "filled twice";
 }
 
