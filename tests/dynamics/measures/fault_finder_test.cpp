@@ -78,7 +78,8 @@ TEST(StrongestAction, IsTheElementThatPullsMostOfThoseThatAreLeft) {
   EXPECT_EQ(bars.strongest(Sign::motion, NodeId{2}), "");
 }
 
-/// Nodes 1 and 2 as one body, node 3: what acts on one of them acts on the body, and so on the other.
+/// Nodes 1 and 2 as one body, node 3: what acts on one of them acts on the body, and so on the
+/// other.
 TEST(StrongestAction, OnAPartOfARigidBodyIsThatOnTheWhole) {
   Scene scene = stretched_bars();
   scene.bonds.pop_back();

@@ -20,8 +20,8 @@ using testing::ElementsAre;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Spheres of 0.2 and 0.1 m on nodes 0 and 1, a bar of 0.05 m between nodes 2 and 3, a facet of 0.3 m
-/// on nodes 4 to 6, and node 7 alone.
+/// Spheres of 0.2 and 0.1 m on nodes 0 and 1, a bar of 0.05 m between nodes 2 and 3, a facet of
+/// 0.3 m on nodes 4 to 6, and node 7 alone.
 Scene of_all_kinds() {
   Scene scene;
   scene.add_sphere(Vec3(0, 0, 0), 0.2, 1000.0, MaterialId{0});
