@@ -49,6 +49,7 @@ class LoadProblems {
     list_planes_driven_twice();
     for (std::size_t i = 0; i < loads.body_servos.size(); ++i)
       list("servo of a rigid body " + std::to_string(i), loads.body_servos[i]);
+    list_bodies_driven_twice();
     for (std::size_t i = 0; i < loads.forces.size(); ++i)
       list("nodal force " + std::to_string(i), loads.forces[i]);
     for (std::size_t i = 0; i < loads.ground_springs.size(); ++i)
@@ -238,6 +239,20 @@ class LoadProblems {
     }
     for (std::size_t i = 0; i < scene_.loads.servos.size(); ++i)
       drive("servo " + std::to_string(i), scene_.loads.servos[i].plane);
+  }
+
+  void list_bodies_driven_twice() {
+    const std::vector<BodyServo>& servos = scene_.loads.body_servos;
+    for (std::size_t i = 0; i < servos.size(); ++i) {
+      const auto drives_the_same = [&](const BodyServo& other) {
+        return other.body == servos[i].body && other.axis == servos[i].axis &&
+               other.turns() == servos[i].turns();
+      };
+      if (std::any_of(servos.begin(), servos.begin() + static_cast<std::ptrdiff_t>(i),
+                      drives_the_same))
+        text_ << "servo of a rigid body " << i << ": rigid body " << servos[i].body
+              << " is driven so already; drive every motion once\n";
+    }
   }
 
   void list(const std::string& name, const NodalForce& load) {

@@ -149,5 +149,17 @@ TEST(LoadsCheck, RefusesAServoOfABodyThatAMotionMovesAlongItsAxisAlone) {
             "servo of a rigid body 0: its rigid body is held or moved along that axis already\n");
 }
 
+TEST(LoadsCheck, RefusesTwoServosThatDriveABodyAlike) {
+  Scene scene = loaded_scene();
+  scene.loads.body_servos.push_back(scene.loads.body_servos[0]);
+
+  EXPECT_EQ(
+      problems_of(scene),
+      "servo of a rigid body 1: rigid body 0 is driven so already; drive every motion once\n");
+
+  scene.loads.body_servos[1].axis = 2;
+  EXPECT_THAT(problems_of(scene), IsEmpty());
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::loads_check_test
