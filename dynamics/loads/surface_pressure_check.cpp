@@ -161,7 +161,7 @@ void list_problems(const SurfacePressure& load, const Scene& scene, const std::s
     problems << name << ": has a pressure by volume and another pressure or a gas; give one\n";
   if (load.start_volume && !(*load.start_volume > 0.0 && std::isfinite(*load.start_volume)))
     problems << name << ": its volume at the start is " << *load.start_volume
-             << " m³; it must be positive and finite\n";
+             << " m3; it must be positive and finite\n";
   if (facets.size() != load.facets.size()) return;
   for (const geometry::Facet& facet : facets) {
     for (const NodeId node : facet.nodes) {

@@ -241,8 +241,8 @@ TEST(SceneCheck, RefusesStartsOfLoadsThatAreNoPlaces) {
 
   EXPECT_THAT(problems_of(scene),
               testing::AllOf(HasSubstr("prescribed motion 0: its place at the start (  0 nan   0)"),
-                             HasSubstr("plane motion 0: its point at the start (  0 nan   0)"),
-                             HasSubstr("its volume at the start is 0 m³; it must be positive")));
+                             HasSubstr("motion of a plane 0: its point at the start (  0 nan   0)"),
+                             HasSubstr("its volume at the start is 0 m3; it must be positive")));
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ TEST(SurfacePressureCheck, WritesTheLineOfWhatIsWrongAndNoOther) {
   load = sound;
   load.start_volume = kInfinity;
   EXPECT_EQ(problems_of(load, scene),
-            "load: its volume at the start is inf m³; it must be positive and finite\n");
+            "load: its volume at the start is inf m3; it must be positive and finite\n");
 
   load = sound;
   load.facets.clear();

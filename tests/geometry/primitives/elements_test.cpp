@@ -305,7 +305,7 @@ TEST(SurfaceErrors, ListEveryProblemAtOnce) {
   EXPECT_THAT(
       message,
       HasSubstr("surface: cylinder 2 has radius -1 m; it must be at least 0 and below 1e+75 m"));
-  EXPECT_THAT(message, HasSubstr("surface: cylinder 3 has radius nan m; it must be finite"));
+  EXPECT_THAT(message, HasSubstr("surface: cylinder 3 has radius nan m; it must be at least 0"));
   EXPECT_THAT(
       message,
       HasSubstr("surface: cylinder 4 has radius inf m; it must be at least 0 and below 1e+75 m"));
