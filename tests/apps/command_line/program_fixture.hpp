@@ -37,6 +37,7 @@ class Program {
     if (process_ != 0) return;
     redirect(STDOUT_FILENO, folder_ / "out");
     redirect(STDERR_FILENO, folder_ / "err");
+    std::signal(SIGINT, SIG_DFL);  // a job that a shell runs in the background ignores it
     prepare();
     arguments.insert(arguments.begin(), "plekton");
     std::vector<const char*> argv;
