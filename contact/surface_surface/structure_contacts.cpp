@@ -31,8 +31,9 @@ double StructureContacts::follow(const geometry::SurfaceChange& change,
   patches_.follow(change);
   lost += bonds_.follow(change, patches_);
   bonds_.follow_list(patches_);
-  if (!had_pairs && pairs.empty()) return lost;
   lost += rebuild(pairs, materials);
+  // What was not listed was not in the energy before: the first list comes with this change.
+  if (!had_pairs) return lost;
   return lost - patches_.normal_energy(change.after(), at, pool);
 }
 

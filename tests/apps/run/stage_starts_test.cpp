@@ -6,10 +6,12 @@
 #include "tests/apps/command_line/program_fixture.hpp"
 #include "tests/support/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -99,6 +101,34 @@ end = { duration = "20 ms" }
     heights.push_back(height_of("nodes/position", node));
   const auto fallen = testing::DoubleNear(0.05 - way, 1e-4);
   EXPECT_THAT(heights, testing::UnorderedElementsAre(0.05, fallen, fallen, fallen));
+}
+
+// Where another structure comes in a later stage, what was stored between those of the first was
+// told as energy that tracking had made.
+TEST_F(StageStarts, TellNothingMadeByTrackingWhereStructuresTouchFromTheStart) {
+  const auto chain = [](const char* name, const char* points) {
+    return fmt::format(R"(name = "{}"
+shape = {{ kind = "chain", points = {}, divisions = 3 }}
+thickness = "10 mm"
+material = "stone"
+young_modulus = "10 MPa"
+density = "1000 kg/m3"
+)",
+                       name, points);
+  };
+  const Outcome outcome =
+      run(std::string(kStone) + "[simulation]\ngravity = [0, 0, 0]\n" + "[[membranes]]\n" +
+          chain("lower", "[[-0.1, 0, 0], [0.1, 0, 0]]") + "[[membranes]]\n" +
+          chain("upper", "[[0, -0.1, 0.009], [0, 0.1, 0.009]]") +
+          "[[stages]]\nname = \"one\"\nend = { duration = \"0.2 ms\" }\n"
+          "[[stages]]\nname = \"two\"\nend = { duration = \"0.2 ms\" }\n"
+          "[[stages.membranes]]\n" +
+          chain("later", "[[0, 0, 1], [0.2, 0, 1]]"));
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  const double stored = 0.5 * 10e6 * 0.005 * 1e-3 * 1e-3;  // J, E r of a contact 1 mm deep
+  EXPECT_LE(std::abs(energy("tracking")), 1e-3 * stored);
+  EXPECT_LE(report()["energy_closure"], 0.01);
 }
 
 TEST_F(StageStarts, TakeOutNoGrainsBeforeTheFirst) {
