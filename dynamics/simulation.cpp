@@ -107,6 +107,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   bonds_->add_forces(forces_, pool_);
   ties_.add_forces(forces_);
   sheet_facets_->add_forces(forces_, pool_);
+  loads_->add_driving_forces(time_, scene_.state, forces_, pool_);
   set_first_step(options.time_step);
   forces_.set_zero();
   initial_moment_ = free_moment(0.0);

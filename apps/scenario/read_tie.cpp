@@ -9,16 +9,21 @@
 namespace plekton::apps {
 namespace {
 
+void refuse_same_body(Section& section, const Scenario& scenario, const NodeSetSettings& from,
+                      const std::optional<std::size_t>& to) {
+  if (!to || to != from.rigid_body) return;
+  section.complain("rigid_body",
+                   fmt::format("ties \"{}\" to itself; expected another body than that of from",
+                               scenario.rigid_bodies[*to].name));
+}
+
 /// A rigid body that holds nodes where they are on it.
 NodeSetSettings read_holder(Section& section, const Scenario& scenario,
                             const NodeSetSettings& from) {
   NodeSetSettings holder;
   holder.place = section.place_of("rigid_body");
   holder.rigid_body = read_rigid_body_name(section, scenario);
-  if (holder.rigid_body && holder.rigid_body == from.rigid_body)
-    section.complain("rigid_body",
-                     fmt::format("ties \"{}\" to itself; expected another body than that of from",
-                                 scenario.rigid_bodies[*holder.rigid_body].name));
+  refuse_same_body(section, scenario, from, holder.rigid_body);
   holder.rigid_body = holder.rigid_body.value_or(0);
   return holder;
 }
@@ -40,6 +45,7 @@ void read_to(Section section, const Scenario& scenario, TieSettings& tie) {
       break;
     case TieTo::surface:
       tie.to = read_tied_body(section, scenario);
+      refuse_same_body(section, scenario, tie.from, tie.to.rigid_body);
       break;
     case TieTo::cable:
       tie.to.place = section.place_of("membrane");

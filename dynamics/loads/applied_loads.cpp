@@ -13,7 +13,9 @@ namespace plekton::dynamics {
 
 AppliedLoads::AppliedLoads(const Scene& scene) {
   const Loads& loads = scene.loads;
-  for (const PrescribedMotion& motion : loads.motions) motions_.emplace_back(motion, scene.state);
+  for (const PrescribedMotion& motion : loads.motions)
+    motions_.emplace_back(motion, scene.state,
+                          reach_around(motion.nodes, scene.rigid_bodies, scene.state.position));
   for (const NodalForce& load : loads.forces) forces_.emplace_back(load);
   for (const GroundSprings& springs : loads.ground_springs)
     springs_.emplace_back(springs, scene.state);
@@ -139,6 +141,13 @@ void AppliedLoads::add_elastic_forces(double time, const NodeState& state, NodeF
   const LoadStep step{time, 0.0, 0.0};
   for (SprungNodes& load : springs_) load.act(step, state, pool).add_to(forces, pool);
   for (PressedSurface& load : pressures_) load.act(step, state, pool).add_to(forces, pool);
+}
+
+void AppliedLoads::add_driving_forces(double time, const NodeState& state, NodeForces& forces,
+                                      geometry::ThreadPool& pool) {
+  add_elastic_forces(time, state, forces, pool);
+  const LoadStep step{time, 0.0, 0.0};
+  for (ForcedNodes& load : forces_) load.act(step, state, pool).add_to(forces, pool);
 }
 
 double AppliedLoads::largest_speed(const TimeSpan& during) const noexcept {

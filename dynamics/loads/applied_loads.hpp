@@ -80,6 +80,10 @@ class AppliedLoads {
   void add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
                           geometry::ThreadPool& pool);
 
+  /// Adds those, and the nodal forces. No allocation.
+  void add_driving_forces(double time, const NodeState& state, NodeForces& forces,
+                          geometry::ThreadPool& pool);
+
   /// What the last step found, and the loads that have been set. @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 

@@ -10,8 +10,8 @@
 
 namespace plekton::dynamics {
 
-MovedNodes::MovedNodes(const PrescribedMotion& motion, const NodeState& at_start)
-    : motion_(motion), start_(motion.start) {
+MovedNodes::MovedNodes(const PrescribedMotion& motion, const NodeState& at_start, double lever)
+    : motion_(motion), lever_(lever), start_(motion.start) {
   if (!start_.empty()) return;
   for (const NodeId node : motion_.nodes) start_.push_back(at_start.position[index_of(node)]);
 }
@@ -100,9 +100,21 @@ double MovedNodes::largest_speed(const TimeSpan& during) const noexcept {
     if (motion_.turn)
       furthest = std::max(furthest, motion_.turn->axis.cross(start - motion_.turn->point).norm());
   }
-  const double round = motion_.turn ? std::abs(motion_.turn->angle) * furthest : 0.0;
+  const double round = motion_.turn ? std::abs(motion_.turn->angle) * (furthest + lever_) : 0.0;
   return motion_.factor.largest_slope(during) * (round + motion_.displacement.norm()) +
-         motion_.factor.largest(during) * motion_.velocity.norm();
+         motion_.factor.largest(during) *
+             (motion_.velocity.norm() + lever_ * motion_.angular_velocity.norm());
+}
+
+double reach_around(std::span<const NodeId> nodes, std::span<const RigidBody> bodies,
+                    geometry::Positions x) {
+  double furthest = 0.0;
+  for (const RigidBody& body : bodies) {
+    if (std::ranges::find(nodes, body.node) == nodes.end()) continue;
+    for (const NodeId node : body.nodes)
+      furthest = std::max(furthest, (x[index_of(node)] - x[index_of(body.node)]).norm());
+  }
+  return furthest;
 }
 
 }  // namespace plekton::dynamics

@@ -3,6 +3,7 @@
 
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/model/loads.hpp"
+#include "dynamics/state/rigid_body.hpp"
 #include "geometry/base/parallel_sum.hpp"
 
 namespace plekton::dynamics {
@@ -12,7 +13,8 @@ namespace plekton::dynamics {
 class MovedNodes {
  public:
   /// @param at_start  where the motion is counted from
-  MovedNodes(const PrescribedMotion& motion, const NodeState& at_start);
+  /// @param lever     m, how far what turns with one of the nodes reaches from it (reach_around())
+  MovedNodes(const PrescribedMotion& motion, const NodeState& at_start, double lever = 0.0);
 
   /// Velocities right after time 0, for what looks at them before the first step.
   void start(NodeState& state) const;
@@ -24,7 +26,7 @@ class MovedNodes {
   double act(const LoadStep& step, NodeState& state, const NodeForces& forces,
              geometry::ThreadPool& pool);
 
-  /// m/s, at any of these times.
+  /// m/s, at any of these times, of the nodes and of what turns with them.
   double largest_speed(const TimeSpan& during) const noexcept;
 
  private:
@@ -34,8 +36,14 @@ class MovedNodes {
   Vec3 spin(const LoadStep& step) const noexcept;
 
   PrescribedMotion motion_;
+  double lever_;             // m
   std::vector<Vec3> start_;  // m, by place in motion_.nodes
   geometry::ParallelSum<double> sum_;
 };
+
+/// m, the largest distance of a node that follows a rigid body from its reference node, of those
+/// that are among some nodes; 0 of others.
+double reach_around(std::span<const NodeId> nodes, std::span<const RigidBody> bodies,
+                    geometry::Positions x);
 
 }  // namespace plekton::dynamics

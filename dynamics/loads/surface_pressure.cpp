@@ -74,6 +74,7 @@ void PressedSurface::follow(const geometry::SurfaceChange& change) {
   const bool is_torn = facets.size() < load_.facets.size();
   load_.facets = std::move(facets);
   if (!is_torn) return;
+  if (load_.facets.empty()) pressure_ = 0.0;
   if (follows_volume()) {
     load_ = SurfacePressure{};
     by_volume_.reset();

@@ -14,7 +14,16 @@ namespace {
 /// Collects what is wrong with the ties of a scene.
 class TieProblems {
  public:
-  TieProblems(const Scene& scene, std::ostream& text) : scene_(scene), text_(text) {}
+  TieProblems(const Scene& scene, std::ostream& text)
+      : scene_(scene), text_(text), body_of_(scene.state.size(), -1) {
+    for (std::size_t b = 0; b < scene.rigid_bodies.size(); ++b) {
+      const auto put = [&](NodeId node) {
+        if (exists(node)) body_of_[index_of(node)] = static_cast<std::int32_t>(b);
+      };
+      put(scene.rigid_bodies[b].node);
+      std::ranges::for_each(scene.rigid_bodies[b].nodes, put);
+    }
+  }
 
   void list_all() {
     for (std::size_t i = 0; i < scene_.cables.size(); ++i) list(scene_.cables[i], i);
@@ -70,6 +79,18 @@ class TieProblems {
     }
     expect((to.weights.array() >= 0.0).all() && std::abs(to.weights.sum() - 1.0) < kTolerance,
            "the weights of its point must not be negative, and have the sum 1");
+    expect(!are_on_one_body(tie.node, to), "ties a rigid body to itself; tie it to another one");
+  }
+
+  bool are_on_one_body(NodeId node, const MaterialPoint& point) const {
+    if (!exists(node) || body_of_[index_of(node)] < 0) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(point.weights[static_cast<int>(k)] > 0.0)) continue;
+      const bool is_other =
+          !exists(point.nodes[k]) || body_of_[index_of(point.nodes[k])] != body_of_[index_of(node)];
+      if (is_other) return false;
+    }
+    return true;
   }
 
   void list(const CablePlace& to, const Tie& tie) {
@@ -85,8 +106,12 @@ class TieProblems {
            "ties a node to a cable of its own");
   }
 
+  bool exists(NodeId node) const {
+    return static_cast<std::int32_t>(node) >= 0 && index_of(node) < scene_.state.size();
+  }
+
   void expect_node(NodeId node) {
-    if (static_cast<std::int32_t>(node) >= 0 && index_of(node) < scene_.state.size()) return;
+    if (exists(node)) return;
     text_ << name_ << ": there is no node " << static_cast<std::int32_t>(node) << ", only "
           << scene_.state.size() << " nodes\n";
   }
@@ -97,7 +122,8 @@ class TieProblems {
 
   const Scene& scene_;
   std::ostream& text_;
-  std::string name_;  // of the cable or tie that is looked at
+  std::vector<std::int32_t> body_of_;  // by NodeId, rigid body that it is of; -1: none
+  std::string name_;                   // of the cable or tie that is looked at
 };
 
 }  // namespace

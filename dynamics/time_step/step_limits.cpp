@@ -42,10 +42,15 @@ struct SlipOnSurfaces {
 StepLimits::StepLimits(const Resistance& of)
     : of_(of),
       radii_(node_radii(of.scene, of.surface)),
-      expected_(ExpectedContacts(of.scene, of.surface, of.contacts).of_nodes()),
-      is_damped_(std::ranges::any_of(
-          expected_, [](const ExpectedOfNode& expected) { return expected.damping > 0.0; })),
-      pace_radius_(pace_radius(of.scene.elements)) {}
+      pace_radius_(pace_radius(of.scene.elements)) {
+  const ExpectedContacts expected(of.scene, of.surface, of.contacts);
+  expected_ = expected.of_nodes();
+  const auto is_damped = [](const ExpectedOfNode& node) { return node.damping > 0.0; };
+  is_damped_ = std::ranges::any_of(expected_, is_damped);
+  // Those of a structure with itself are not among them.
+  if (!is_damped_ && of.surface.structure_count() > 0)
+    is_damped_ = std::ranges::any_of(expected.of_structures(), is_damped);
+}
 
 void StepLimits::add_expected(NodalStiffness& stiffness, double rate) const {
   for (std::size_t i = 0; i < expected_.size(); ++i)
@@ -311,9 +316,8 @@ void StepLimits::consider_structures(StiffestPart& parts) const {
     of_.ties.for_each_node(
         i, [&](NodeId node) { is_held = is_held || of_.rigid.mover_of(node) == parts.node(); });
     if (!is_held) continue;
-    parts.consider({StepPart::Kind::tie, i}, [&](NodalStiffness& stiffness) {
-      of_.ties.add_to(stiffness, i);
-    });
+    parts.consider({StepPart::Kind::tie, i},
+                   [&](NodalStiffness& stiffness) { of_.ties.add_to(stiffness, i); });
   }
   parts.consider({StepPart::Kind::ground_springs},
                  [&](NodalStiffness& stiffness) { of_.loads.add_springs_to(stiffness); });

@@ -173,6 +173,30 @@ TEST(PrescribedMotion, ThatTurnsABeamGivesItsAngularMomentumAndItsEnergy) {
   EXPECT_LT(closure, 1e-2 * simulation.energy().turnover());
 }
 
+// The tips of a blade went on unforeseen: of a body that turned about its centre nothing was known.
+TEST(PrescribedMotion, KnowsHowFastWhatTurnsWithItsNodesGoes) {
+  PrescribedMotion motion;
+  motion.nodes = {NodeId{0}};
+  motion.turn = dynamics::AxisTurn{Vec3::Zero(), Vec3::UnitZ(), 2.0};
+  motion.factor = TimeTable({{0.0, 0.0}, {0.5, 1.0}});
+  Scene scene;
+  for (const double x : {0.0, 0.2, -0.1}) add_lump(scene, Vec3(x, 0.0, 0.0));
+  scene.rigid_bodies = {{NodeId{0}, {NodeId{1}, NodeId{2}}}};
+  const double reach =
+      dynamics::reach_around(motion.nodes, scene.rigid_bodies, scene.state.position);
+  EXPECT_EQ(reach, 0.2);
+  EXPECT_EQ(
+      dynamics::reach_around(std::vector{NodeId{1}}, scene.rigid_bodies, scene.state.position),
+      0.0);
+
+  const dynamics::TimeSpan all{0.0, 1.0};
+  EXPECT_DOUBLE_EQ(dynamics::MovedNodes(motion, scene.state, reach).largest_speed(all),
+                   2.0 / 0.5 * 0.2);
+  motion.turn.reset();
+  motion.angular_velocity = Vec3(0.0, 3.0, 4.0);
+  EXPECT_DOUBLE_EQ(dynamics::MovedNodes(motion, scene.state, reach).largest_speed(all), 5.0 * 0.2);
+}
+
 TEST(PrescribedMotion, ThatTurnsIsRefusedWithoutAnAxisOrWithFreeComponents) {
   PrescribedMotion motion;
   motion.held = Held::along_x;

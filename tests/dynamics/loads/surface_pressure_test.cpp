@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -310,6 +311,29 @@ TEST(SurfacePressure, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.state().position, many.state().position);
     EXPECT_EQ(one.energy().external_work, many.energy().external_work);
   }
+}
+
+// The first step was chosen without the pressure, and nodes went through what was near in it.
+TEST(SurfacePressure, ThatActsFromTheStartShortensTheFirstStep) {
+  SurfacePressure load;
+  Scene scene = rough_ball(load.facets, Vec3::Zero());
+  const double radius = scene.elements.facets[0].radius;
+  const double unpressed = simulation_of(scene, 0.0, Vec3::Zero()).time_step();
+  const double lightest = *std::ranges::min_element(scene.properties.mass);
+  const double share = 4.0 * std::numbers::pi * 0.01 / static_cast<double>(scene.state.size());
+  // By which a node would go some radius in that step.
+  load.pressure = 2.0 * radius * lightest / (share * unpressed * unpressed);
+  scene.loads.pressures = {load};
+  auto simulation = simulation_of(scene, 0.0, Vec3::Zero());
+  const std::vector<Vec3> before = simulation.state().position;
+
+  simulation.step();
+
+  double furthest = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    furthest = std::max(furthest, (simulation.state().position[i] - before[i]).norm());
+  EXPECT_LE(furthest, 0.101 * radius);  // a tenth, and what the motion itself brings
+  EXPECT_GE(furthest, 0.01 * radius);   // no shorter than needed
 }
 
 TEST(SurfacePressure, OfAGasIsRefusedOnAnOpenSurface) {

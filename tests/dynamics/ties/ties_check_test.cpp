@@ -97,6 +97,20 @@ TEST(TiesCheck, RefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(problems_with(tie), HasSubstr("slides on a cable only"));
 }
 
+// Such a tie has no stiffness, and made the critical step no number.
+TEST(TiesCheck, RefusesToTieARigidBodyToItself) {
+  Scene scene = lumps();
+  scene.cables.clear();
+  scene.rigid_bodies = {{NodeId{1}, {NodeId{2}, NodeId{3}}}};
+  scene.ties = {{.node = NodeId{2},
+                 .to = MaterialPoint{{NodeId{3}, NodeId{1}, NodeId{3}}, Vec3(0.5, 0.5, 0.0)},
+                 .stiffness = 1.0}};
+  EXPECT_THAT(problems_of(scene), HasSubstr("tie 0: ties a rigid body to itself"));
+
+  scene.ties[0].node = NodeId{0};
+  EXPECT_THAT(problems_of(scene), testing::Not(HasSubstr("ties a rigid body to itself")));
+}
+
 TEST(TiesCheck, RefusesCablesThatAreNone) {
   Scene scene = lumps();
   scene.cables.push_back({{NodeId{1}}, false});

@@ -107,6 +107,28 @@ TEST(StepWithDashpots, IsLimitedByTheLightNodeThatAHeavyBallLiesOn) {
   }
 }
 
+// Where nothing but a structure could touch itself, its dashpots were not counted.
+TEST(StepWithDashpots, KnowsThoseOfAStructureThatTouchesItself) {
+  constexpr double kWire = 0.01;  // m, radius
+  const auto step_of = [](double xi) {
+    Scene scene;
+    scene.materials = {{1e6, 0.0, 0.0}};
+    const double above = 2.0 * kWire - 1e-4;  // m, of the last bar over the first
+    std::vector<NodeId> nodes;
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1.5, 1, 0), Vec3(0.5, 0.5, above),
+                          Vec3(0.5, -0.5, above)}) {
+      nodes.push_back(scene.add_node(x));
+      scene.properties.mass.back() = 1e-3;
+      scene.properties.inertia.back() = 1.0;
+    }
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+      scene.add_cylinder(nodes[i], nodes[i + 1], kWire, kMaterial);
+    return Simulation(scene, {.motion = {.gravity = Vec3::Zero()}}, damped(xi)).time_step();
+  };
+
+  EXPECT_LT(step_of(1.0), 0.8 * step_of(0.0));
+}
+
 TEST(StepWithDashpots, IsLimitedByTheSumOfThoseAroundABall) {
   for (const double xi : {0.05, 0.3, 1.0}) {
     Scene scene = with_ball(Vec3::Zero());
