@@ -14,6 +14,7 @@
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
+#include "geometry/primitives/node_sets.hpp"
 #include "geometry/query/surface_query.hpp"
 
 #include <fmt/format.h>
@@ -58,17 +59,13 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& t
       obstacles.push_back({geometry::core(facet, x), facet.radius,
                            spring_of(scene.facet_materials[i], facet.radius)});
   }
-  std::size_t first = 0;
-  for (const BuiltMembrane& membrane : built.membranes) {
-    // Where there are facets the cylinders are their sides.
-    for (std::size_t i = first; membrane.facets == 0 && i < first + membrane.cylinders; ++i) {
-      const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
-      if (!scene.is_there(cylinder.nodes[0])) continue;
-      const auto [x0, x1] = geometry::core(cylinder, x);
-      obstacles.push_back(
-          {{x0, x1, x1}, cylinder.radius, spring_of(scene.cylinder_materials[i], cylinder.radius)});
-    }
-    first += membrane.cylinders;
+  const geometry::NodeSets<2> sides = geometry::set_of_sides(scene.elements.facets);
+  for (std::size_t i = 0; i < scene.elements.cylinders.size(); ++i) {
+    const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
+    if (!scene.is_there(cylinder.nodes[0]) || sides.contains(cylinder.nodes)) continue;
+    const auto [x0, x1] = geometry::core(cylinder, x);
+    obstacles.push_back(
+        {{x0, x1, x1}, cylinder.radius, spring_of(scene.cylinder_materials[i], cylinder.radius)});
   }
   for (std::size_t i = 0; i < scene.elements.spheres.size(); ++i) {
     const geometry::Sphere& sphere = scene.elements.spheres[i];

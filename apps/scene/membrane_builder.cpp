@@ -5,6 +5,7 @@
 #include "apps/scene/node_set.hpp"
 #include "dynamics/loads/pressed_rest_state.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <fmt/format.h>
 
@@ -23,16 +24,19 @@ using geometry::index_of;
 using geometry::Membrane;
 
 struct EdgeLengths {
-  double total = 0.0;                                         ///< m
+  double total = 0.0;     ///< m
+  double of_sheet = 0.0;  ///< m, of those that are sides of facets; of all where there is none
   double shortest = std::numeric_limits<double>::infinity();  ///< m
 };
 
 EdgeLengths edge_lengths(const dynamics::Scene& scene, const Membrane& membrane) {
+  const geometry::NodeSets<2> sides = geometry::set_of_sides(membrane.facets);
   EdgeLengths lengths;
   for (const auto& [a, b] : membrane.edges) {
     const double length =
         (scene.state.position[index_of(b)] - scene.state.position[index_of(a)]).norm();
     lengths.total += length;
+    if (sides.empty() || sides.contains({a, b})) lengths.of_sheet += length;
     lengths.shortest = std::min(lengths.shortest, length);
   }
   return lengths;
@@ -117,13 +121,16 @@ struct Masses {
   double facets;  ///< kg/m³, of a plate in each facet; 0 in edge mode
 };
 
-Masses masses_of(const MembraneSettings& settings, double area, double bar_volume) {
+/// @param section  m², of an edge
+Masses masses_of(const MembraneSettings& settings, double area, double section,
+                 const EdgeLengths& lengths) {
   const double areal_mass =
       settings.density ? *settings.density * settings.thickness : settings.areal_mass;
   if (settings.mass_mode == MassMode::area)
     return {areal_mass * area, 0.0, areal_mass / settings.thickness};
-  const double density = settings.density.value_or(areal_mass * area / bar_volume);
-  return {density * bar_volume, density, 0.0};
+  const double density =
+      settings.density.value_or(areal_mass * area / (section * lengths.of_sheet));
+  return {density * (section * lengths.total), density, 0.0};
 }
 
 /// The section of all edges of a membrane but for wires.
@@ -179,17 +186,18 @@ void add_elements(const MembraneSettings& settings, const MembraneBody& body,
   const Membrane& membrane = body.membrane;
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
-  const auto [length, shortest] = edge_lengths(scene, membrane);
-  result.mean_edge = length / static_cast<double>(membrane.edges.size());
+  const EdgeLengths lengths = edge_lengths(scene, membrane);
+  result.mean_edge = lengths.total / static_cast<double>(membrane.edges.size());
   const bool is_sheet = settings.mode == MembraneMode::continuum;
   result.young_modulus = settings.young_modulus.value_or(
       settings.wire ? settings.wire->first_slope() / section_area
-      : is_sheet    ? settings.sheet_stiffness / settings.thickness
-                    : beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
-  const Masses masses = masses_of(settings, result.area, section_area * length);
+      : is_sheet
+          ? settings.sheet_stiffness / settings.thickness
+          : beam_modulus(settings.sheet_stiffness, result.area, section_area, lengths.of_sheet));
+  const Masses masses = masses_of(settings, result.area, section_area, lengths);
   result.mass = masses.total;
 
-  require_computable(result, shortest);
+  require_computable(result, lengths.shortest);
 
   if (is_sheet)
     add_sheet(settings, membrane, result, masses.edges, scene);

@@ -4,6 +4,7 @@
 #include "apps/grains/container.hpp"
 #include "apps/grains/free_space.hpp"
 #include "apps/grains/random.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <fmt/format.h>
 
@@ -48,9 +49,9 @@ std::vector<std::array<Vec3, 3>> cores_of(const BuiltMembrane& membrane,
   std::vector<std::array<Vec3, 3>> cores;
   for (const geometry::Facet& facet : scene.elements.facets)
     if (is_its(facet.nodes[0])) cores.push_back(geometry::core(facet, x));
-  if (!cores.empty()) return cores;  // cylinders are their sides
+  const geometry::NodeSets<2> sides = geometry::set_of_sides(scene.elements.facets);
   for (const geometry::Cylinder& cylinder : scene.elements.cylinders) {
-    if (!is_its(cylinder.nodes[0])) continue;
+    if (!is_its(cylinder.nodes[0]) || sides.contains(cylinder.nodes)) continue;
     const auto [x0, x1] = geometry::core(cylinder, x);
     cores.push_back({x0, x1, x1});
   }

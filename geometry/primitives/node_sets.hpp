@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 /// Elements told by their nodes, in whatever order these are.
@@ -39,5 +40,14 @@ class NodeSets {
  private:
   std::vector<std::array<NodeId, N>> sets_;
 };
+
+/// Of all facets.
+inline NodeSets<2> set_of_sides(std::span<const Facet> facets) {
+  NodeSets<2> sides;
+  for (const Facet& facet : facets)
+    for (const std::array<NodeId, 2>& side : sides_of(facet)) sides.add(side);
+  sides.sort();
+  return sides;
+}
 
 }  // namespace plekton::geometry
