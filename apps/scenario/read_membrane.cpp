@@ -2,6 +2,7 @@
 #include "apps/scenario/read_membrane_source.hpp"
 #include "apps/scenario/read_membrane_strength.hpp"
 #include "apps/scenario/read_placement.hpp"
+#include "geometry/base/rotation_about.hpp"
 
 #include <fmt/format.h>
 
@@ -132,6 +133,10 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   membrane.name = section.name("name", "membrane");
   read_membrane_source(section, known, membrane);
   membrane.placement = read_placement(section);
+  // Of an ON-DEM file: what is turned moves on as it did.
+  const geometry::Mat3 rotation =
+      geometry::rotation_about(membrane.placement.axis, membrane.placement.angle);
+  for (Vec3& velocity : membrane.initial_velocities) velocity = rotation * velocity;
   membrane.mode = static_cast<MembraneMode>(section.choice("mode", kModes, 0));
   const bool is_sheet = membrane.mode == MembraneMode::continuum;
   membrane.thickness = section.quantity("thickness", {kLength, kPositive});

@@ -212,6 +212,18 @@ std::vector<double> draw_for(double volume, const SizeCurve& sizes, Random& rand
   return best;
 }
 
+/// As many as are asked for, or of the volume (m³) that is: where a mass or volume is, anew only if
+/// the usual number misses it by more than half of the smallest grain.
+std::vector<double> draw_sizes(const GrainSettings& settings, double volume, std::size_t count,
+                               Random& random) {
+  if (settings.porosity) return draw_for(volume, settings.sizes, random);
+  std::vector<double> diameters = settings.sizes.draw(count, random);
+  const bool is_volume = std::holds_alternative<double>(settings.amount);
+  const double half = 0.5 * volume_of(std::span(&diameters.back(), 1));
+  if (!is_volume || std::abs(volume_of(diameters) - volume) <= half) return diameters;
+  return draw_for(volume, settings.sizes, random);
+}
+
 /// Smaller, at random, and then grown.
 std::vector<PlacedGrain> pack(const Task& task, std::span<const double> diameters,
                               const Surroundings& surroundings, Random& random,
@@ -288,9 +300,7 @@ std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
           ? *given
           : static_cast<std::size_t>(std::max(1.0, std::round(expected / mean)));
   Random random(settings.seed);
-  const std::vector<double> diameters = settings.porosity
-                                            ? draw_for(expected, settings.sizes, random)
-                                            : settings.sizes.draw(count, random);
+  const std::vector<double> diameters = draw_sizes(settings, expected, count, random);
   const Task task{settings, container, diameters.size(), volume_of(diameters)};
   if (settings.placement == GrainPlacement::packed)
     return pack(task, diameters, surroundings, random, tell);

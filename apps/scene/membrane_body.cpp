@@ -5,6 +5,7 @@
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/repair/measures.hpp"
+#include "geometry/mesh/repair/verdict.hpp"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ void put_in_place(std::vector<Vec3>& points, const Placement& placement) {
 }
 
 /// Mesh files are repaired as they are written, where facets without area are exactly that, so the
-/// lengths of the repair follow the file.
+/// lengths of the repair follow the file; those of the report follow the scene.
 geometry::ImportedMesh import_unscaled(const MembraneSettings& settings) {
   const double scale = settings.placement.scale;
   geometry::ImportOptions import{settings.repair};
@@ -39,7 +40,9 @@ geometry::ImportedMesh import_unscaled(const MembraneSettings& settings) {
     return fmt::format("{} (lengths here are before scaling by {})", message, scale);
   };
   try {
-    return geometry::import_mesh(settings.mesh, import);
+    geometry::ImportedMesh imported = geometry::import_mesh(settings.mesh, import);
+    if (scale != 1.0) geometry::scale_lengths(imported.report, scale);
+    return imported;
   } catch (const geometry::RefusedMesh& error) {
     if (scale == 1.0) throw;
     throw geometry::RefusedMesh(scaled(error.what()), error.failed_step);

@@ -124,4 +124,24 @@ void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons,
     report.verdict = was_repaired(report) ? MeshVerdict::repaired : MeshVerdict::ok;
 }
 
+void scale_lengths(MeshReport& report, double factor) {
+  for (double* const length : {&report.found.near_distance, &report.changed.weld_distance,
+                               &report.changed.largest_weld_move, &report.after.shortest_edge,
+                               &report.after.mean_edge, &report.after.longest_edge})
+    *length *= factor;
+  report.after.area *= factor * factor;
+  if (report.after.volume) *report.after.volume *= factor * factor * factor;
+  report.after.bounds.lower *= factor;
+  report.after.bounds.upper *= factor;
+  if (report.reshaped) {
+    MeshReport::Reshaped& reshaped = *report.reshaped;
+    for (double* const length : {&reshaped.wrap_detail, &reshaped.target_edge, &reshaped.distance,
+                                 &reshaped.distance_bound})
+      *length *= factor;
+    reshaped.area_before *= factor * factor;
+    if (reshaped.volume_before) *reshaped.volume_before *= factor * factor * factor;
+  }
+  if (report.verdict != MeshVerdict::refused) judge(report, {}, {});
+}
+
 }  // namespace plekton::geometry

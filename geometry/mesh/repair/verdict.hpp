@@ -16,4 +16,8 @@ namespace plekton::geometry {
 void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons,
            std::span<const std::string> refusals);
 
+/// Of a mesh that is scaled after its repair: lengths, areas and volumes as they are then, and the
+/// reasons with them. @param factor  > 0
+void scale_lengths(MeshReport& report, double factor);
+
 }  // namespace plekton::geometry

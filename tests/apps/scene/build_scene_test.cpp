@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -125,6 +126,74 @@ TEST_F(BuildScene, GivesTheLatticeTheStiffnessOfTheSheet) {
   }
   const double expected = 20e3 / (1.0 - 1.0 / 3.0) * kStrain * kStrain * 0.06;
   EXPECT_NEAR(energy, expected, kSum * expected);
+}
+
+/// Two facets, and two bars beside them that are longer than all of their sides.
+constexpr std::string_view kFlag = R"([simulation]
+duration = "1 s"
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "flag"
+shape = { kind = "facets", points = [[0, 0, 0], [0.2, 0, 0], [0.2, 0.2, 0], [0, 0.2, 0], [1, 0, 0], [1, 0.2, 0]], facets = [[0, 1, 2], [0, 2, 3]], bars = [[1, 4], [2, 5]] }
+thickness = "10 cm"
+material = "gravel"
+sheet_stiffness = "20 kN/m"
+areal_mass = "300 g/m2"
+)";
+
+// Bars beside the facets had their share of what the sheet was to have.
+TEST_F(BuildScene, GivesFacetsWithBarsBesideThemTheStiffnessAndMassOfTheSheet) {
+  const BuiltScene with_bars = build_scene(parse_scenario(kFlag, folder_ / "flag.toml", {}));
+  std::string text(kFlag);
+  text.erase(text.find(", bars"), std::string_view(", bars = [[1, 4], [2, 5]]").size());
+  text.erase(text.find(", [1, 0, 0], [1, 0.2, 0]"),
+             std::string_view(", [1, 0, 0], [1, 0.2, 0]").size());
+  const BuiltScene without = build_scene(parse_scenario(text, folder_ / "flag.toml", {}));
+
+  EXPECT_DOUBLE_EQ(with_bars.membranes[0].young_modulus, without.membranes[0].young_modulus);
+  const double sides = 4 * 0.2 + std::sqrt(0.08), bars = 2 * 0.8;  // m
+  EXPECT_NEAR(without.membranes[0].mass, 0.3 * 0.04, kSum);
+  EXPECT_NEAR(with_bars.membranes[0].mass, 0.3 * 0.04 * (1.0 + bars / sides), kSum);
+}
+
+// Bars beside facets were not in the way.
+TEST_F(BuildScene, PlacesGrainsClearOfBarsBesideFacets) {
+  std::string text(kFlag);
+  text += R"([[grains]]
+name = "gravel"
+material = "gravel"
+count = 60
+radius = "1 cm"
+box = { min = [0.4, -0.1, -0.1], max = [0.9, 0.3, 0.1] }
+)";
+  const BuiltScene scene = build_scene(parse_scenario(text, folder_ / "flag.toml", {}));
+
+  ASSERT_EQ(scene.scene.elements.spheres.size(), 60U);
+  for (const geometry::Sphere& sphere : scene.scene.elements.spheres) {
+    const Vec3& x = scene.scene.state.position[index_of(sphere.nodes[0])];
+    for (const double y : {0.0, 0.2}) EXPECT_GE(std::hypot(x[1] - y, x[2]), 0.06 - 1e-15);
+  }
+}
+
+// The distance was that of the file, in mm.
+TEST_F(BuildScene, WarnsInMetresOfAMeshThatIsScaled) {
+  geometry::Mesh sheet = geometry::plane_sheet({200.0, 300.0, 20, 20});
+  const auto moved = static_cast<geometry::NodeId>(sheet.points.size());
+  sheet.points.push_back(sheet.points[30] + Vec3(1e-4, 0.0, 0.0));
+  for (auto& facet : sheet.facets) {
+    const auto corner = std::ranges::find(facet, geometry::NodeId{30});
+    if (corner == facet.end()) continue;
+    *corner = moved;
+    break;
+  }
+  geometry::write_mesh_file(folder_ / "in_mm.off", sheet);
+  const BuiltScene scene = built({"membranes.sheet.mesh=in_mm.off", "membranes.sheet.scale=0.001"});
+
+  // A millionth of the diagonal.
+  EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("within 3.60555e-07 m of another one")));
 }
 
 TEST_F(BuildScene, MakesAThinSheetOfTheFacetsInModeContinuum) {

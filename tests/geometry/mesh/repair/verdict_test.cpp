@@ -168,5 +168,31 @@ TEST(Judge, TellsAMeshThatCameWithoutFacetsFromOneThatLostThem) {
               ElementsAre(HasSubstr("none of the 6 polygons has an area; check the unit")));
 }
 
+TEST(ScaleLengths, TellsEverythingInTheUnitsAfterIt) {
+  MeshReport report = judged([](MeshReport& r) {
+    r.found.near_distance = 2.0;
+    r.found.near_duplicate_points = 3;
+    r.changed.weld_distance = 0.5;
+    r.after.area = 4.0;
+    r.after.volume = 8.0;
+    r.after.longest_edge = 7.0;
+    r.after.bounds = {Vec3(-1.0, 0.0, 2.0), Vec3(3.0, 4.0, 5.0)};
+    r.reshaped = with(&Reshaped::wrap_detail, 0.25);
+    r.reshaped->distance_bound = 0.125;
+  });
+
+  scale_lengths(report, 1e-3);
+
+  EXPECT_DOUBLE_EQ(report.changed.weld_distance, 5e-4);
+  EXPECT_DOUBLE_EQ(report.after.area, 4e-6);
+  EXPECT_DOUBLE_EQ(*report.after.volume, 8e-9);
+  EXPECT_DOUBLE_EQ(report.after.longest_edge, 7e-3);
+  EXPECT_DOUBLE_EQ(report.after.bounds.upper[1], 4e-3);
+  EXPECT_DOUBLE_EQ(report.reshaped->wrap_detail, 2.5e-4);
+  EXPECT_EQ(report.verdict, MeshVerdict::usable_with_warnings);
+  EXPECT_THAT(report.reasons, ElementsAre(HasSubstr("3 points lie within 0.002 m of another one"),
+                                          HasSubstr("up to 0.000125 m away from what it was")));
+}
+
 }  // namespace
 }  // namespace plekton::geometry::verdict_test
