@@ -146,13 +146,22 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
   return run_stages(scenario, std::move(begin->prepared), from_there, stages);
 }
 
+std::string text_of(const std::vector<StagesSeen::Stage>& stages) {
+  std::string text;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const StagesSeen::Stage& stage = stages[i];
+    text +=
+        fmt::format("stage {} ({} of {}): {}; {} grains, {} planes, {} loads\n", stage.name, i + 1,
+                    stages.size(), stage.limits, stage.grains, stage.planes, stage.loads);
+  }
+  return text;
+}
+
 StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
   StagesSeen seen;
   const auto tell = [&](const Scenario& stage, std::size_t grains) {
-    seen.text +=
-        fmt::format("stage {} ({} of {}): {}; {} grains, {} planes, {} loads\n", stage.stage->name,
-                    stage.stage->number + 1, scenario.stages.size(), limits_of(*stage.stage),
-                    grains, stage.planes.size(), stage.loads.size());
+    seen.stages.push_back({stage.stage->name, limits_of(*stage.stage), grains, stage.planes.size(),
+                           stage.loads.size()});
   };
   const Scenario& first = scenario.stages.front();
   const BuiltScene built = build_scene(first, hear);

@@ -30,9 +30,19 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
 
 /// What `plekton check` says of stages.
 struct StagesSeen {
-  std::string text;  ///< a line each, in the order in which they come
+  struct Stage {
+    std::string name;
+    std::string limits;  ///< when it ends, in words
+    std::size_t grains = 0;
+    std::size_t planes = 0;
+    std::size_t loads = 0;
+  };
+  std::vector<Stage> stages;  ///< in the order in which they come
   std::vector<std::string> warnings;
 };
+
+/// A line each.
+std::string text_of(const std::vector<StagesSeen::Stage>& stages);
 
 /// Looks at each stage as far as it can be known before it is run: what it says, that its scene can
 /// be built, that its grains have room beside membranes and planes, that something moves, and

@@ -44,6 +44,12 @@ void check_for_programs(const CheckArguments& arguments) {
     if (scenario.stage) stages = look_at_stages(scenario, {});
     auto report = check_report(scenario, prepared);
     for (const std::string& warning : stages.warnings) report["warnings"].push_back(warning);
+    for (const auto& [name, limits, grains, planes, loads] : stages.stages)
+      report["stages"].push_back({{"name", name},
+                                  {"ends", limits},
+                                  {"grains", grains},
+                                  {"planes", planes},
+                                  {"loads", loads}});
     print(report);
   } catch (const InputError& error) {
     print(check_report(error.what()));
@@ -63,7 +69,7 @@ void check_for_people(const CheckArguments& arguments) {
   std::cout << text_of(estimate_run(scenario, prepared));
   if (scenario.stage) {
     const StagesSeen stages = look_at_stages(scenario, {});
-    std::cout << stages.text;
+    std::cout << text_of(stages.stages);
     for (const std::string& warning : stages.warnings) std::cout << "warning: " << warning << '\n';
   }
   std::cout << scenario.file.string() << ": no problems\n";

@@ -132,6 +132,7 @@ Json estimate_of(const RunEstimate& estimate) {
                {"timed_steps", estimate.timed_steps},
                {"wall_time_s", {estimate.wall_time.low, estimate.wall_time.high}},
                {"bytes", {estimate.bytes.low, estimate.bytes.high}}};
+  if (!estimate.stage.empty()) json["stage"] = estimate.stage;
   if (!estimate.failure.empty()) json["failure"] = estimate.failure;
   return json;
 }

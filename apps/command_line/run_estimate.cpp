@@ -134,6 +134,7 @@ RunEstimate estimate_run(const Scenario& scenario, PreparedRun& prepared) {
   dynamics::Simulation& simulation = *prepared.simulation;
   const double duration = scenario.simulation.duration;
   RunEstimate estimate;
+  if (scenario.stage) estimate.stage = scenario.stage->name;
   estimate.threads = scenario.simulation.threads;
   estimate.may_stop_early = scenario.stop.has_value();
   estimate.steps = steps_of(duration, simulation);
@@ -159,18 +160,21 @@ RunEstimate estimate_run(const Scenario& scenario, PreparedRun& prepared) {
 std::string text_of(const RunEstimate& estimate) {
   if (!estimate.failure.empty())
     return fmt::format("warning: it diverges within the first steps: {}\n", estimate.failure);
+  const std::string of = estimate.stage.empty()
+                             ? ""
+                             : fmt::format(" of stage {}, the others not counted", estimate.stage);
   return fmt::format(
-      "wall time: {} with {} {}, for {} steps; {} steps timed now took {:.3g} "
+      "wall time{}: {} with {} {}, for {} steps; {} steps timed now took {:.3g} "
       "ms each, the higher figure has {:g} times that for the contacts that come; what else this "
       "machine does, fast motion and elements that break are not in it{}\n"
-      "disk: {} in {:.0f} frames and their tables; the higher figure is without any packing, "
+      "disk{}: {} in {:.0f} frames and their tables; the higher figure is without any packing, "
       "and with {:.0f} contacts at a time\n",
-      range_text(time_text(estimate.wall_time.low), time_text(estimate.wall_time.high)),
+      of, range_text(time_text(estimate.wall_time.low), time_text(estimate.wall_time.high)),
       estimate.threads, estimate.threads == 1 ? "thread" : "threads",
       range_text(fmt::format("{:.0f}", estimate.steps.low),
                  fmt::format("{:.0f}", estimate.steps.high)),
       estimate.timed_steps, 1e3 * estimate.step_time, kLaterCost,
-      estimate.may_stop_early ? "; [stop] may end it sooner" : "",
+      estimate.may_stop_early ? "; [stop] may end it sooner" : "", of,
       range_text(bytes_text(estimate.bytes.low), bytes_text(estimate.bytes.high)), estimate.frames,
       estimate.most_contacts);
 }

@@ -10,6 +10,7 @@ namespace plekton::apps {
 
 /// What a run takes, from a few steps that are timed.
 struct RunEstimate {
+  std::string stage;  ///< the one that it is of; empty without stages
   struct Bounds {
     double low = 0.0;
     double high = 0.0;

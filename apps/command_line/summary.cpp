@@ -68,16 +68,16 @@ std::string line_of(const BuiltTies& ties) {
 /// The time step at the start, the critical one with all contacts that may come, and what limits
 /// the step where that is not what is stiff. A chosen step follows what touches, and may be longer
 /// until more does.
-std::string line_of_step(const PreparedRun& prepared) {
+std::string line_of_step(const PreparedRun& prepared, bool is_stage) {
   const dynamics::Simulation& simulation = *prepared.simulation;
   const double dt = simulation.time_step();
   const double ratio = simulation.motion_ratio();
   return fmt::format(
       "time step: {:.4g} s{}, {:.4g} s is critical with all contacts that may come, {:.0f} steps "
-      "in "
-      "all at this one{}\n",
+      "in {} at this one{}\n",
       dt, simulation.chooses_time_step() ? " to begin with, as little touches as now" : "",
       simulation.critical_step().dt, std::ceil(prepared.duration / dt),
+      is_stage ? "this stage at the most" : "all",
       ratio > 0.9 * dynamics::kLargestMotion
           ? fmt::format("; something moves by {:.3g} % of the smallest radius in each",
                         100.0 * ratio)
@@ -102,7 +102,7 @@ std::string summary_of(const Scenario& scenario, const PreparedRun& prepared) {
   for (const BuiltTies& ties : prepared.built.ties) text += line_of(ties);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
-  text += line_of_step(prepared);
+  text += line_of_step(prepared, scenario.stage.has_value());
   for (const std::string& warning : prepared.built.warnings) text += "warning: " + warning + '\n';
   return text;
 }

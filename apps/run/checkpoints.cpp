@@ -26,19 +26,19 @@ constexpr std::string_view kBegin = "step_";
 constexpr std::string_view kEnd = ".h5";
 constexpr std::string_view kClockEnd = "_clock.h5";
 
-bool is_checkpoint(std::string_view name) {
-  if (!name.starts_with(kBegin)) return false;
-  const std::string_view end =
-      name.substr(std::min(name.find_first_not_of("0123456789", kBegin.size()), name.size()));
-  return end == kEnd || end == kClockEnd;
-}
-
 /// So many digits that names sort by steps, and of two of the same step that which stays is first.
 std::string name_of_checkpoint(std::int64_t steps, CheckpointKind kind = CheckpointKind::stays) {
   return fmt::format("{}{:012}{}", kBegin, steps, kind == CheckpointKind::stays ? kEnd : kClockEnd);
 }
 
 }  // namespace
+
+bool is_checkpoint(std::string_view name) {
+  if (!name.starts_with(kBegin)) return false;
+  const std::string_view end =
+      name.substr(std::min(name.find_first_not_of("0123456789", kBegin.size()), name.size()));
+  return end == kEnd || end == kClockEnd;
+}
 
 void write_run_checkpoint(const fs::path& folder, std::int64_t steps,
                           const geometry::StateTree& state, CheckpointKind kind) {

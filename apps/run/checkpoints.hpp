@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The checkpoints of a run: files in a folder of its own below that of the run, one for each step
@@ -27,6 +28,8 @@ void write_run_checkpoint(const std::filesystem::path& folder, std::int64_t step
                           const geometry::StateTree& state,
                           CheckpointKind kind = CheckpointKind::stays);
 
+/// Whether a file of this name in the folder of checkpoints is one.
+bool is_checkpoint(std::string_view name);
 /// Of what kind a file is, by its name.
 bool is_by_clock(const std::filesystem::path& checkpoint);
 

@@ -25,11 +25,10 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 3> kParts = {"grains", "membranes", "contacts"};
 
 /// The number in the name of a file that Frames has written.
-std::optional<std::size_t> frame_number(const std::string& name) {
+std::optional<std::size_t> frame_number(std::string_view name) {
   for (const std::string_view part : kParts) {
     if (!name.starts_with(part) || !name.ends_with(".vtp")) continue;
-    const std::string_view middle =
-        std::string_view(name).substr(part.size(), name.size() - part.size() - 4);
+    const std::string_view middle = name.substr(part.size(), name.size() - part.size() - 4);
     if (!middle.starts_with('_')) continue;
     std::size_t number = 0;
     const auto [end, error] =
@@ -136,6 +135,10 @@ dynamics::PolyData membranes_of(dynamics::Simulation& simulation,
 }
 
 }  // namespace
+
+bool is_frame(std::string_view name) {
+  return frame_number(name).has_value();
+}
 
 OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation& simulation) {
   const geometry::Elements& elements = simulation.elements();

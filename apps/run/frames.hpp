@@ -15,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plekton::apps {
@@ -24,6 +25,9 @@ struct FramePart {
   std::string name;  ///< of its series: "grains", "membranes" or "contacts"
   dynamics::PolyData data;
 };
+
+/// Whether a file of this name in the folder of frames is one of them.
+bool is_frame(std::string_view name);
 
 /// What is asked for and of which there is something in a simulation that begins; contacts always.
 OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation& simulation);

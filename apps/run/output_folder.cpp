@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/output_folder.hpp"
 
+#include "apps/run/frames.hpp"
 #include "apps/run/measures.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -9,13 +10,33 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <string>
 #include <system_error>
 #include <vector>
 
 namespace plekton::apps {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Those of files whose name is a result's.
+template <class IsResult>
+void remove_parts_in(const fs::path& folder, const IsResult& is_result) {
+  std::vector<fs::path> parts;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& path = entry.path();
+    if (path.extension() == ".part" && is_result(path.stem().string()) &&
+        fs::is_regular_file(entry.symlink_status(ignored)))
+      parts.push_back(path);
+  }
+  for (const fs::path& part : parts) fs::remove(part, ignored);
+}
+
+}  // namespace
 
 void make_output_folder(const fs::path& folder) {
   if (dynamics::goes_nowhere(folder)) return;
@@ -33,6 +54,11 @@ bool has_results(const fs::path& folder, std::string_view file) {
   std::error_code ignored;
   // Also a link to nowhere is somebody's.
   return fs::exists(fs::symlink_status(folder / file, ignored));
+}
+
+bool has_any_result(const fs::path& folder) {
+  return std::ranges::any_of(kResultFiles,
+                             [&](std::string_view file) { return has_results(folder, file); });
 }
 
 void refuse_results(const fs::path& folder, std::string_view maker,
@@ -56,15 +82,12 @@ std::string problem_with_run_folder(const fs::path& folder) {
 }
 
 void remove_parts(const fs::path& folder) {
-  std::vector<fs::path> parts;
-  for (const fs::path& place : {folder, folder / "frames", folder / kCheckpointFolder}) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(place, ignored))
-      if (entry.path().extension() == ".part" && fs::is_regular_file(entry.symlink_status(ignored)))
-        parts.push_back(entry.path());
-  }
-  std::error_code ignored;
-  for (const fs::path& part : parts) fs::remove(part, ignored);
+  const auto is_result = [](std::string_view name) {
+    return std::ranges::find(kResultFiles, name) != kResultFiles.end();
+  };
+  remove_parts_in(folder, is_result);
+  remove_parts_in(folder / "frames", is_frame);
+  remove_parts_in(folder / kCheckpointFolder, is_checkpoint);
 }
 
 void check_output_folder(const fs::path& folder, bool overwrite) {

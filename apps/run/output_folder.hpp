@@ -27,6 +27,9 @@ inline constexpr std::array<std::string_view, 14> kResultFiles = {
 /// @param file  one of kResultFiles, or what else is made
 bool has_results(const std::filesystem::path& folder, std::string_view file);
 
+/// Whether a run has written into a folder.
+bool has_any_result(const std::filesystem::path& folder);
+
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".
 /// @throws dynamics::OutputError naming the first that is there
@@ -36,8 +39,8 @@ void refuse_results(const std::filesystem::path& folder, std::string_view maker,
 /// What keeps a path from being the folder of a run; empty: it is a folder.
 std::string problem_with_run_folder(const std::filesystem::path& folder);
 
-/// Removes what a run that was killed has left of files that it was writing. The folder has to be
-/// locked.
+/// Removes what a run that was killed has left of files that it was writing, and nothing else that
+/// is called NAME.part. The folder has to be locked.
 void remove_parts(const std::filesystem::path& folder);
 
 /// Refuses a folder that another run writes to, and, unless it is to be overwritten, one that holds

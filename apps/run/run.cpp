@@ -93,7 +93,7 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
   report.vector_width = geometry::vector_width();
   report.scenario = scenario.file.string();
   report.overrides = scenario.overrides;
-  report.duration = scenario.simulation.duration;
+  if (!scenario.stage) report.duration = scenario.simulation.duration;
   report.threads = scenario.simulation.threads;
   if (scenario.simulation.ranks != nullptr) report.ranks = scenario.simulation.ranks->count();
   report.seed = scenario.simulation.seed;
@@ -293,8 +293,7 @@ class Run {
   }
 
   void write_whole_report() {
-    for (std::string& warning : warnings_about(report_))
-      report_.warnings.push_back(std::move(warning));
+    add_warnings_to(report_);
     write_run_report(settings_.out, report_);
   }
 
@@ -617,7 +616,10 @@ class Run {
   /// @param with_figures  those of the simulation, which all ranks have to ask for
   void write_report_if_possible(bool with_figures) noexcept {
     try {
-      if (with_figures) complete_report();
+      if (with_figures) {
+        complete_report();
+        add_warnings_to(report_);
+      }
       write_run_report(settings_.out, report_);
     } catch (const std::exception&) {
     }
@@ -814,7 +816,8 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
     if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
     refuse_other_measures(settings.out, scenario);
     remove_parts(settings.out);
-    if (!goes_on) remove_pictures(settings.out);
+    if (settings.overwrite && !goes_on && has_any_result(settings.out))
+      remove_pictures(settings.out);
     // What came after is computed again, now perhaps with other intervals.
     goes_on ? remove_checkpoints_after(settings.out, prepared.simulation->steps())
             : remove_checkpoints(settings.out);

@@ -19,8 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json options_of(const RunReport& report) {
-  return {{"scenario", report.scenario}, {"set", report.overrides}, {"duration_s", report.duration},
-          {"threads", report.threads},   {"ranks", report.ranks},   {"seed", report.seed},
+  return {{"scenario", report.scenario},
+          {"set", report.overrides},
+          {"duration_s", report.duration ? Json(*report.duration) : Json()},
+          {"threads", report.threads},
+          {"ranks", report.ranks},
+          {"seed", report.seed},
           {"damping", report.damping}};
 }
 

@@ -56,9 +56,9 @@ struct RunReport {
   std::optional<double> resumed;  ///< s, from where it went on; wall times count from there
   std::string scenario;
   std::vector<std::string> overrides;
-  double duration = 0.0;  ///< s, asked for
-  int threads = 1;        ///< of each rank
-  int ranks = 1;          ///< processes that computed it together
+  std::optional<double> duration = std::nullopt;  ///< s, asked for; nothing of stages
+  int threads = 1;                                ///< of each rank
+  int ranks = 1;                                  ///< processes that computed it together
   std::uint64_t seed = 0;
   double damping = 0.0;
 

@@ -3,6 +3,7 @@
 
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/run_state.hpp"
+#include "apps/run/run_warnings.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/staged_scenario.hpp"
 #include "apps/scene/build_scene.hpp"
@@ -326,6 +327,7 @@ RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSetti
                                  [&](const std::exception& error) {
                                    before->status = RunStatus::failed;
                                    before->message = error.what();
+                                   add_warnings_to(*before);
                                    write_run_report(settings.out, *before);
                                  });
     prepared = std::move(next.prepared);

@@ -213,4 +213,8 @@ std::vector<std::string> warnings_about(const RunReport& report) {
   return warnings;
 }
 
+void add_warnings_to(RunReport& report) {
+  for (std::string& warning : warnings_about(report)) report.warnings.push_back(std::move(warning));
+}
+
 }  // namespace plekton::apps

@@ -58,5 +58,7 @@ std::string summary_of(const std::vector<Check>& certificate);
 
 /// The advice of what is red.
 std::vector<std::string> warnings_about(const RunReport& report);
+/// Adds it to the warnings of the report.
+void add_warnings_to(RunReport& report);
 
 }  // namespace plekton::apps

@@ -40,17 +40,6 @@ const Table* table_in(const Value& value) {
   return std::get_if<Table>(&value.data);
 }
 
-/// The list of a key; made where it is missing.
-Array& list_of(Table& table, std::string_view key, const Place& place) {
-  if (Entry* const entry = table.find(key)) {
-    if (auto* const list = std::get_if<Array>(&entry->value.data)) return *list;
-    entry->value.data = Array{};
-    return std::get<Array>(entry->value.data);
-  }
-  table.entries.push_back({std::string(key), place, Value{place, Array{}}});
-  return std::get<Array>(table.entries.back().value.data);
-}
-
 void set(Table& table, const Entry& entry) {
   if (Entry* const there = table.find(entry.key))
     *there = entry;
@@ -166,6 +155,21 @@ class Stages {
   }
 
  private:
+  /// The list of a key; made where it is missing.
+  Array& list_of(Table& table, std::string_view key, const Place& place) {
+    if (Entry* const entry = table.find(key)) {
+      if (auto* const list = std::get_if<Array>(&entry->value.data)) return *list;
+      const std::string name = fmt::format("{}{}", &table == &now_ ? "" : "output.", key);
+      problems_.add(entry->place,
+                    fmt::format("{}: got {}; expected a list of tables, each under [[{}]]", name,
+                                shown(entry->value), name));
+      entry->value.data = Array{};
+      return std::get<Array>(entry->value.data);
+    }
+    table.entries.push_back({std::string(key), place, Value{place, Array{}}});
+    return std::get<Array>(table.entries.back().value.data);
+  }
+
   void begin_origins() {
     origins_.planes.clear();
     for (std::size_t i = 0; i < count("planes"); ++i)

@@ -77,6 +77,14 @@ TEST_F(Stages, AreAllLookedAtByCheck) {
   EXPECT_EQ(sound.exit_code, 0) << sound.err;
   EXPECT_THAT(sound.out, HasSubstr("stage press (3 of 3): ends: after 0.008 s; 70 grains"));
 
+  EXPECT_THAT(sound.out, HasSubstr("wall time of stage pour, the others not counted: "));
+  EXPECT_THAT(sound.out, HasSubstr(" steps in this stage at the most at this one"));
+  const json report = json::parse(Program({"check", "--json", all_stages()}).wait().out);
+  EXPECT_EQ(report["estimate"]["stage"], "pour");
+  ASSERT_EQ(report["stages"].size(), 3U);
+  EXPECT_EQ(report["stages"][2]["name"], "press");
+  EXPECT_EQ(report["stages"][2]["grains"], 70);
+
   std::string tight = std::string(kBodies) + kStages;
   tight.replace(tight.find("count = 10"), 10, "count = 900");
   const Outcome full = Program({"check", write("tight.toml", tight)}).wait();

@@ -44,6 +44,27 @@ TEST(OverwrittenRun, TakesAlongWhatWasDrawnOfIt) {
   EXPECT_TRUE(fs::exists(folder / "out/mine.html"));
 }
 
+// A picture of somebody else was removed by the first run into its folder.
+TEST(FirstRun, LeavesWhatIsInItsFolder) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "a.toml", kFalling);
+  const std::vector<std::string> others = {"plot.png", "thesis.pdf.part", "frames/mine.vtp.part"};
+  fs::create_directories(folder / "out/frames");
+  for (const std::string& name : others)
+    test::write_bytes(folder / ("out/" + name), "\x89PNG\r\n\x1a\n");
+  test::write_bytes(folder / "out/energy.csv.part", "of a run that was killed");
+  test::write_bytes(folder / "out/frames/grains_00001.vtp.part", "of a run that was killed");
+
+  const Outcome outcome =
+      Program({"run", (folder / "a.toml").string(), "--quiet", "--out", (folder / "out").string()})
+          .wait();
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder / ("out/" + name))) << name;
+  EXPECT_FALSE(fs::exists(folder / "out/energy.csv.part"));
+  EXPECT_FALSE(fs::exists(folder / "out/frames/grains_00001.vtp.part"));
+}
+
 TEST(RemovePictures, LeavesFilesOfOthersOfTheSameNames) {
   const test::TemporaryFolder folder;
   for (const char* const drawn : {kViewPage, kPlotDrawing, kPlotPicture, kFramePicture})

@@ -268,6 +268,20 @@ TEST(StageTable, TellsEveryProblemOnceWithItsPlace) {
       ThrowsMessage<InputError>(HasSubstr("stop: does not go with stages")));
 }
 
+// What was no list was dropped without a word where a stage had one.
+TEST(StageTable, RefusesATableWhereAListOfTablesIsExpected) {
+  const std::string body =
+      "name = \"lid\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, 1], radius "
+      "= 0.1 }]\ndensity = 2600\n";
+  EXPECT_THAT(
+      [&] {
+        parsed("[rigid_bodies]\n" + body + "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n" +
+               "[[stages.rigid_bodies]]\nname = \"other\"\n" + body.substr(body.find('\n') + 1));
+      },
+      ThrowsMessage<InputError>(HasSubstr(
+          "rigid_bodies: got a table; expected a list of tables, each under [[rigid_bodies]]")));
+}
+
 TEST(StageTable, HasTheBodiesOfAllStagesAndKnowsWhichAreThere) {
   const std::string stone =
       "name = \"stone\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, 1], radius = 0.1 "
