@@ -97,7 +97,7 @@ TEST_F(MeshKeys, WrapClosesTheSurfaceWithDetailsThatCountAfterScaling) {
   const BuiltMembrane coarse = built("wrap = true\nwrap_detail = \"20 mm\"");
   const BuiltMembrane fine = built("wrap_detail = \"10 mm\"");
 
-  EXPECT_DOUBLE_EQ(fine.report->reshaped->wrap_detail, 10.0);  // mm, as the file
+  EXPECT_DOUBLE_EQ(fine.report->reshaped->wrap_detail, 0.01);  // m, not mm as the file
   EXPECT_GT(fine.facets, coarse.facets);
   // Closed: every facet has three edges, each shared by two.
   EXPECT_EQ(2 * fine.beams, 3 * fine.facets);
