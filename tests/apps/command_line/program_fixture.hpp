@@ -37,7 +37,8 @@ class Program {
     if (process_ != 0) return;
     redirect(STDOUT_FILENO, folder_ / "out");
     redirect(STDERR_FILENO, folder_ / "err");
-    std::signal(SIGINT, SIG_DFL);  // a job that a shell runs in the background ignores it
+    // A job that a shell runs in the background ignores the one, and what nohup starts the other.
+    for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, SIG_DFL);
     prepare();
     arguments.insert(arguments.begin(), "plekton");
     std::vector<const char*> argv;
