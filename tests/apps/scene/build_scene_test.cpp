@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 namespace plekton::apps::build_scene_test {
 namespace {
@@ -128,14 +130,13 @@ TEST_F(BuildScene, GivesTheLatticeTheStiffnessOfTheSheet) {
   EXPECT_NEAR(energy, expected, kSum * expected);
 }
 
+/// A scenario with the material of the one above.
+std::string with_gravel(std::string_view bodies) {
+  return std::string(kScenario.substr(0, kScenario.find("[[membranes]]"))).append(bodies);
+}
+
 /// Two facets, and two bars beside them that are longer than all of their sides.
-constexpr std::string_view kFlag = R"([simulation]
-duration = "1 s"
-[materials.gravel]
-density = "2650 kg/m3"
-young_modulus = "20 MPa"
-friction_angle = "35 deg"
-[[membranes]]
+constexpr std::string_view kFlag = R"([[membranes]]
 name = "flag"
 shape = { kind = "facets", points = [[0, 0, 0], [0.2, 0, 0], [0.2, 0.2, 0], [0, 0.2, 0], [1, 0, 0], [1, 0.2, 0]], facets = [[0, 1, 2], [0, 2, 3]], bars = [[1, 4], [2, 5]] }
 thickness = "10 cm"
@@ -146,8 +147,9 @@ areal_mass = "300 g/m2"
 
 // Bars beside the facets had their share of what the sheet was to have.
 TEST_F(BuildScene, GivesFacetsWithBarsBesideThemTheStiffnessAndMassOfTheSheet) {
-  const BuiltScene with_bars = build_scene(parse_scenario(kFlag, folder_ / "flag.toml", {}));
-  std::string text(kFlag);
+  const BuiltScene with_bars =
+      build_scene(parse_scenario(with_gravel(kFlag), folder_ / "flag.toml", {}));
+  std::string text = with_gravel(kFlag);
   text.erase(text.find(", bars"), std::string_view(", bars = [[1, 4], [2, 5]]").size());
   text.erase(text.find(", [1, 0, 0], [1, 0.2, 0]"),
              std::string_view(", [1, 0, 0], [1, 0.2, 0]").size());
@@ -161,7 +163,7 @@ TEST_F(BuildScene, GivesFacetsWithBarsBesideThemTheStiffnessAndMassOfTheSheet) {
 
 // Bars beside facets were not in the way.
 TEST_F(BuildScene, PlacesGrainsClearOfBarsBesideFacets) {
-  std::string text(kFlag);
+  std::string text = with_gravel(kFlag);
   text += R"([[grains]]
 name = "gravel"
 material = "gravel"
