@@ -143,9 +143,10 @@ TEST(ExtendedPart, OfPiecesAddsUpToThatOfTheWhole) {
   Random random(1);
   int pushing = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const Vec3 first(random.uniform(-1.0, 1.0), random.uniform(0.2, 1.0), 0.2);
-    const Vec3 last =
-        first + Vec3(3.0, 0.1 * random.uniform(-1.0, 1.0), 0.2 * random.uniform(-1.0, 1.0));
+    // One after the other: compilers take arguments in different orders.
+    const double y = random.uniform(0.2, 1.0), x = random.uniform(-1.0, 1.0);
+    const double rise = 0.2 * random.uniform(-1.0, 1.0), aside = 0.1 * random.uniform(-1.0, 1.0);
+    const Vec3 first(x, y, 0.2), last = first + Vec3(3.0, aside, rise);
     const Vec3 third = first + (last - first) / 3.0, middle = first + 0.5 * (last - first);
     const Simplex bar = cylinder(Vec3(0, 0.6, 0.05), Vec3(4, 0.5, 0.0));
     for (const Simplex& other : {kFacet, bar}) {
