@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace plekton::apps {
@@ -249,11 +250,9 @@ class TieBuilder {
   }
   /// Those that are no sides of facets.
   void find_bars(const NodeSetSettings& set) {
-    geometry::NodeSets<2> sides;
-    for_each_facet(set, [&](const std::array<NodeId, 3>& nodes) {
-      for (std::size_t k = 0; k < 3; ++k) sides.add({nodes[k], nodes[(k + 1) % 3]});
-    });
-    sides.sort();
+    const auto [first_facet, facets] = range_of(*surface_of(set), &BuiltMembrane::facets);
+    const geometry::NodeSets<2> sides = geometry::set_of_sides(
+        std::span(built_.scene.elements.facets).subspan(first_facet, facets));
     bars_.clear();
     const auto [first, count] = range_of(*surface_of(set), &BuiltMembrane::cylinders);
     for (std::size_t i = first; i < first + count; ++i) {
