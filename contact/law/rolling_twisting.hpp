@@ -114,12 +114,18 @@ struct RollingTwisting {
             p.inverse_twisting_arms * (history.twisting * history.twisting));
   }
 
-  /// A spring between rotations counts as one of the slip that has an arm of the smaller radius:
-  /// never softer than it is.
+  /// Springs between rotations count as one of the slip that has an arm of the smaller radius.
+  ///
+  /// Around a ball whose contacts have normals n, an axis u meets k_s r² + k_r of each times
+  /// 1 - (u n)², and k_t times (u n)². Slip alone meets (k_s r² + k) (1 - (u n)²). The sum of
+  /// 1 - (u n)² is at least 2/3 of the number N of contacts about some axis. Where it is S about u,
+  /// k = k_t / 2 + max(k_r, k_t) is enough: k S >= k_r S + k_t (N - S) if S >= 2/3 N; else the left
+  /// side with 2/3 N is at least the right one at S = 0 and at S = 2/3 N, and so between them.
   template <class Real>
   PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
       const ParametersOf<Real>& p, const ContactStiffnessOf<Real>& stiffness) noexcept {
-    const Real arms = geometry::larger_of(p.rolling_arms, p.twisting_arms);
+    const Real arms =
+        geometry::larger_of(p.rolling_arms, p.twisting_arms) + Real(0.5) * p.twisting_arms;
     return {stiffness.normal, (Real(1.0) + arms / (p.radius * p.radius)) * stiffness.tangential};
   }
 

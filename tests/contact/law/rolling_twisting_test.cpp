@@ -3,8 +3,13 @@
 
 #include "contact/law/linear_frictional.hpp"
 #include "contact/law/sum.hpp"
+#include "tests/support/seeded_random.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
 
 namespace plekton::contact::rolling_twisting_test {
 namespace {
@@ -79,6 +84,54 @@ TEST(RollingTwisting, TurnsItsMomentWithTheContactButNotTheTwist) {
 
   EXPECT_NEAR(history.part.rolling[2], -before[0], 1e-15 * before.norm());
   EXPECT_EQ(history.part.twisting, before[2]);
+}
+
+/// What a ball of a radius meets as it turns among contacts with these normals: what slips, with
+/// springs along the tangents, and what turns there, each per unit of angle.
+Mat3 against_turning(std::span<const Vec3> normals, double slip, double rolling, double twisting) {
+  Mat3 sum = Mat3::Zero();
+  for (const Vec3& normal : normals) {
+    const Mat3 along = normal * normal.transpose();
+    sum += (slip + rolling) * (Mat3::Identity() - along) + twisting * along;
+  }
+  return sum;
+}
+double largest_eigenvalue(const Mat3& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(matrix).eigenvalues()[2];
+}
+
+/// For a step; k_s r² = 1 is slip, of which the rest are multiples.
+double effective_slip(double rolling, double twisting) {
+  const Body ball{{1e6, 0.4, 0.5}, 0.1};
+  const auto p = RollingTwisting::combine({rolling, twisting}, ball, ball);
+  return RollingTwisting::effective(p, ContactStiffness{1.0, 1.0}).tangential;
+}
+
+// The larger of both was taken: of six contacts with both a fifth too little.
+TEST(RollingTwisting, CountsForAStepAtLeastAsItResistsTurningOfABallThatIsHeldAllAround) {
+  test::Random random(3);
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::vector<Vec3> normals(1 + random.index(12));
+    for (Vec3& normal : normals) normal = random.direction();
+    const double rolling = random.coin() ? random.uniform(0.0, 5.0) : 0.0;
+    const double twisting = random.coin() ? random.uniform(0.0, 5.0) : 0.0;
+
+    const double counts = effective_slip(rolling, twisting);
+
+    EXPECT_GE((1.0 + 1e-12) * largest_eigenvalue(against_turning(normals, counts, 0.0, 0.0)),
+              largest_eigenvalue(against_turning(normals, 1.0, rolling, twisting)))
+        << normals.size() << " contacts, " << rolling << ", " << twisting;
+  }
+}
+
+TEST(RollingTwisting, CountsForAStepExactlyWithSixContactsThatRollAsTheyTwist) {
+  const std::vector<Vec3> normals{Vec3::UnitX(),  Vec3::UnitY(),  Vec3::UnitZ(),
+                                  -Vec3::UnitX(), -Vec3::UnitY(), -Vec3::UnitZ()};
+
+  const double counts = effective_slip(0.8, 0.8);
+
+  EXPECT_NEAR(largest_eigenvalue(against_turning(normals, counts, 0.0, 0.0)),
+              largest_eigenvalue(against_turning(normals, 1.0, 0.8, 0.8)), 1e-14 * 10.0);
 }
 
 }  // namespace
