@@ -134,9 +134,9 @@ double StepLimits::of_structures(NodalStiffness& space) const {
   return shortest_of_pieces(space, [] {}).dt;
 }
 
-/// With gases and viscous damping.
-CriticalStep StepLimits::with_loads(CriticalStep step, NodalStiffness& space) const {
-  step.dt = of_.loads.critical_step(step.dt, of_structures(space), of_.scene);
+/// With gases and viscous damping. @param of_structures  s, see there
+CriticalStep StepLimits::with_loads(CriticalStep step, double of_structures) const {
+  step.dt = of_.loads.critical_step(step.dt, of_structures, of_.scene);
   return step;
 }
 
@@ -160,12 +160,12 @@ Step StepLimits::with_dashpots(const Find& find) const {
 CriticalStep StepLimits::critical(NodalStiffness& space, geometry::Positions x) const {
   StructureStiffness between(of_.rigid);
   find_between_structures(between, x, std::numeric_limits<double>::infinity());
-  const CriticalStep step = with_dashpots<CriticalStep>([&](double rate) {
+  const double alone = of_structures(space);
+  return with_dashpots<CriticalStep>([&](double rate) {
     const CriticalStep coming = structural(space, rate);
     const CriticalStep now = present(space, between, x, rate);
-    return now.dt < coming.dt ? now : coming;
+    return with_loads(now.dt < coming.dt ? now : coming, alone);
   });
-  return with_loads(step, space);
 }
 
 CriticalStep StepLimits::critical(geometry::Positions x) const {
@@ -177,16 +177,16 @@ CriticalStep StepLimits::present(geometry::Positions x) const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   StructureStiffness between(of_.rigid);
   find_between_structures(between, x, std::numeric_limits<double>::infinity());
-  const CriticalStep step =
-      with_dashpots<CriticalStep>([&](double rate) { return present(space, between, x, rate); });
-  return with_loads(step, space);
+  const double alone = of_structures(space);
+  return with_dashpots<CriticalStep>(
+      [&](double rate) { return with_loads(present(space, between, x, rate), alone); });
 }
 
 CriticalStep StepLimits::coming() const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  const CriticalStep step =
-      with_dashpots<CriticalStep>([&](double rate) { return structural(space, rate); });
-  return with_loads(step, space);
+  const double alone = of_structures(space);
+  return with_dashpots<CriticalStep>(
+      [&](double rate) { return with_loads(structural(space, rate), alone); });
 }
 
 /// Of the contacts of now, without gases and viscous damping.
@@ -250,15 +250,18 @@ StepCause StepLimits::cause(geometry::Positions x) const {
   bool is_coming = false;
   double rate = 0.0;
   double without_dashpots = 0.0;
+  CriticalStep shortest;  // without gases and viscous damping
   StructureStiffness between(of_.rigid);
   find_between_structures(between, x, std::numeric_limits<double>::infinity());
-  const CriticalStep shortest = with_dashpots<CriticalStep>([&](double tried) {
+  const double alone = of_structures(space);
+  const CriticalStep step = with_dashpots<CriticalStep>([&](double tried) {
     rate = tried;
     const CriticalStep coming = structural(space, rate);
     const CriticalStep now = present(space, between, x, rate);
     is_coming = !(now.dt < coming.dt);
-    if (rate == 0.0) without_dashpots = std::min(now.dt, coming.dt);
-    return is_coming ? coming : now;
+    shortest = is_coming ? coming : now;
+    if (rate == 0.0) without_dashpots = shortest.dt;
+    return with_loads(shortest, alone);
   });
   StepCause cause{shortest, {}, 0.0, shortest.dt};
   if (std::isfinite(shortest.dt)) {
@@ -275,7 +278,7 @@ StepCause StepLimits::cause(geometry::Positions x) const {
     cause = parts.cause();
   }
   cause.without_dashpots = without_dashpots;
-  cause.step.dt = with_loads(shortest, space).dt;
+  cause.step.dt = step.dt;
   return cause;
 }
 

@@ -85,7 +85,7 @@ class StepLimits {
   template <class Step, class Find>
   Step with_dashpots(const Find& find) const;
   double of_structures(NodalStiffness& space) const;
-  CriticalStep with_loads(CriticalStep step, NodalStiffness& space) const;
+  CriticalStep with_loads(CriticalStep step, double of_structures) const;
   template <class Add>
   CriticalStep shortest_of_pieces(NodalStiffness& space, const Add& add_contacts) const;
   CriticalStep structural(NodalStiffness& space, double rate) const;
