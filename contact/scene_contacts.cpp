@@ -80,11 +80,11 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
   cell_neighbours_.leave_out(groups);
   materials_.structure_masses = structure::mean_node_masses(surface, materials_.masses);
   between_structures_.set_rigid(rigid_structures(surface, groups));
+  spheres_.reserve(spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
-    spheres_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node),
-                        groups.group_of(node)});
-    structure_of_sphere_.push_back(geometry::StructureId{-1});
+    spheres_.push_back({node, spheres[i].radius, materials_.of_spheres[i], groups.group_of(node),
+                        materials_.mass_of(node)});
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
@@ -92,9 +92,9 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
       continue;
     const NodeId node = geometry::id_at<NodeId>(n);
     spheres_.push_back({node, surface.radius(structure),
-                        materials_.of_structures[index_of(structure)], materials_.mass_of(node),
-                        groups.group_of(node)});
-    structure_of_sphere_.push_back(structure);
+                        materials_.of_structures[index_of(structure)], groups.group_of(node),
+                        materials_.mass_of(node)});
+    structures_of_nodes_.push_back(structure);
   }
 }
 

@@ -81,7 +81,8 @@ class SceneContacts final : public Contacts {
     with_spheres_.for_each_record(x, visit);
     with_surfaces_.for_each_record(x, visit);
     between_structures_.for_each_record(x, visit);
-    with_planes_.for_each_record(x, structure_of_sphere_, visit);
+    with_planes_.for_each_record(
+        x, [this](std::int32_t sphere) { return structure_of(sphere); }, visit);
   }
   void for_each_structure_record_on(
       NodeId node, Positions x,
@@ -152,6 +153,12 @@ class SceneContacts final : public Contacts {
   }
 
  private:
+  /// -1 for a sphere.
+  geometry::StructureId structure_of(std::int32_t sphere) const noexcept {
+    const auto i = static_cast<std::size_t>(sphere);
+    const std::size_t first = spheres_.size() - structures_of_nodes_.size();
+    return i < first ? geometry::StructureId{-1} : structures_of_nodes_[i - first];
+  }
   bool look_at_lists(const Motion& motion, geometry::ThreadPool& pool);
   double list_on_surfaces();
   void share_out();
@@ -172,8 +179,8 @@ class SceneContacts final : public Contacts {
   ContactMaterials materials_;
   std::uint64_t materials_hash_;     ///< as they were at the start
   std::vector<SphereBody> spheres_;  ///< the spheres, then the nodes of the surface
-  /// By the same numbers: -1 for a sphere. A node keeps its structure when its last element is gone.
-  std::vector<geometry::StructureId> structure_of_sphere_;
+  /// Of the nodes among these, in order. A node keeps its structure when its last element is gone.
+  std::vector<geometry::StructureId> structures_of_nodes_;
   geometry::Neighbours neighbours_;
   geometry::CellNeighbours cell_neighbours_;
   PlaneNeighbours plane_neighbours_;

@@ -74,7 +74,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
       driven_bodies_(scene_, surface_),
       forces_(scene_.state.size()),
       nodes_(scene_.state, forces_),
-      furthest_(furthest_in_a_step(scene_)),
+      largest_radius_(largest_radius(scene_.elements)),
       pace_radius_(pace_radius(scene_.elements)),
       may_touch_(may_touch(scene_, surface_, options.self_contact)),
       full_gravity_(options.motion.gravity),
@@ -84,7 +84,8 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   leave_out_absent();
   loads_->start(scene_.state);
   rigid_bodies_.start(scene_.state, scene_.properties);
-  least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
+  const std::vector<double> furthest = furthest_in_a_step(scene_, largest_radius_);
+  least_furthest_ = furthest.empty() ? 0.0 : *std::min_element(furthest.begin(), furthest.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_->tune_skin(pace_radius_);
   if (options.skin == 0.0) contacts_->choose_skin_of_structures();
   // What breaks as it is made goes on to touch: steps are chosen for it too.
@@ -124,7 +125,7 @@ void Simulation::set_first_step(double asked) {
   NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties,
                        &rigid_nodes_);
   initial_stiffness_ = limits_->total_stiffness(space);
-  const double critical = limits_->critical(space, force_positions()).dt;
+  const double critical = limits_->critical(space, scene_.state.position).dt;
   dt_ = asked;
   if (asked > kLargestStep * critical) {
     std::ostringstream text;
@@ -368,7 +369,8 @@ void Simulation::check_motion() {
       fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
   if (is_slow) return;
   nodes_.know_all();
-  if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
+  if (const auto runaway =
+          find_runaway(scene_.state, furthest_in_a_step(scene_, largest_radius_), drift_))
     throw Diverged(*runaway, steps_, time_, scene_.state,
                    fault_finder().fault(*runaway, {last_drift_, drift_, chooser_ != nullptr},
                                         ledger_.suspect()));
@@ -405,7 +407,9 @@ void Simulation::check_energy() {
   // than anything may go in a step: nobody could see it.
   const std::size_t i = index_of(divergence.node);
   const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
-  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
+  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <=
+      finder.furthest(divergence.node))
+    return;
   throw Diverged(
       divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_, scene_.state,
       finder.fault(divergence, {last_drift_, last_drift_, chooser_ != nullptr}, ledger_.suspect()));
@@ -429,7 +433,9 @@ void Simulation::watch_momentum() {
 
 FaultFinder Simulation::fault_finder() {
   nodes_.know_all();
-  return {resistance(), *limits_, scene_.state, forces_, furthest_, pool_};
+  return {
+      resistance(), *limits_, scene_.state, forces_, furthest_in_a_step(scene_, largest_radius_),
+      pool_};
 }
 
 // Loads.

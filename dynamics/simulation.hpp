@@ -385,8 +385,8 @@ class Simulation {
   std::int64_t steps_ = 0;
   double fastest_ = std::numeric_limits<double>::infinity();  ///< m/s, after the last step
   double fastest_spin_ = 0.0;                                 ///< rad/s, after the last step
-  std::vector<double> furthest_;  ///< m, by node, what it may move in a step
-  double least_furthest_ = 0.0;   ///< m, of all nodes
+  double largest_radius_;        ///< m, at the start
+  double least_furthest_ = 0.0;  ///< m, what any node may move in a step
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
   bool may_touch_ = true;
   EnergyLedger ledger_;

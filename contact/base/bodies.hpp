@@ -17,8 +17,8 @@ struct SphereBody {
   NodeId node;
   double radius;  ///< m
   MaterialId material;
-  double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
   std::int32_t rigid_body = -1;  ///< that it is a part of, with the mass of all; -1: none
+  double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
 };
 
 /// Of a structure.

@@ -234,7 +234,10 @@ void PlaneContacts::gather(const Touching& touching, const Motion& motion,
     const Slot& slot = slots_[touching.slot[k]];
     const Plane& plane = planes[slot.plane];
     const Vec3& x = motion.position[index_of(slot.node)];
-    const Vec3 separation = -(touching.height[k] + slot.radius) * plane.normal_at(x);
+    const double to_image = -(touching.height[k] + slot.radius);
+    // The same twice: a normal of either kind would be stored in parts, and loaded across them.
+    const Vec3 separation = plane.form == Plane::Form::flat ? Vec3(to_image * plane.normal)
+                                                            : Vec3(to_image * plane.normal_at(x));
     const SphereMotionOf<double> spheres = motion_of(slot, separation, plane, motion);
     batch.separation.set(k, spheres.separation);
     batch.velocity.set(k, spheres.velocity);
@@ -399,8 +402,9 @@ void PlaneContacts::assign_ids(std::int64_t& last) {
     if (slot.touches && slot.state.id == 0) slot.state.id = ++last;
 }
 
-void PlaneContacts::for_each_record(Positions x, std::span<const geometry::StructureId> structures,
-                                    VisitRecord visit) const {
+void PlaneContacts::for_each_record(
+    Positions x, geometry::FunctionRef<geometry::StructureId(std::int32_t)> structure_of,
+    VisitRecord visit) const {
   know_states();
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
@@ -408,7 +412,7 @@ void PlaneContacts::for_each_record(Positions x, std::span<const geometry::Struc
     const PairState& state = slot.state;
     const geometry::Feature node(slot.node);
     const std::int32_t sphere = rekey_.key(i).a;
-    const geometry::StructureId structure = structures[static_cast<std::size_t>(sphere)];
+    const geometry::StructureId structure = structure_of(sphere);
     ContactRecord row;
     row.id = state.id;
     // Spheres come first among the spheres.

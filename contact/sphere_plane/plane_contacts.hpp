@@ -88,8 +88,9 @@ class PlaneContacts {
   void assign_ids(std::int64_t& last);
 
   /// Calls visit(ContactRecord) for every touching pair of the last step, in the order of the list.
-  /// @param structures  by sphere of the list: of what it is a node; -1 for a sphere by itself
-  void for_each_record(Positions x, std::span<const geometry::StructureId> structures,
+  /// @param structure_of  (sphere of the list) -> of what it is a node; -1 for a sphere by itself
+  void for_each_record(Positions x,
+                       geometry::FunctionRef<geometry::StructureId(std::int32_t)> structure_of,
                        VisitRecord visit) const;
 
   /// @param list  makes the list anew by rebuild()

@@ -6,8 +6,9 @@
 #include "dynamics/time_step/step_limits.hpp"
 
 #include <iosfwd>
-#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace plekton::dynamics {
 
@@ -28,18 +29,20 @@ class FaultFinder {
   /// @param forces    of the last step
   /// @param furthest  m, by node, what it may move in a step
   FaultFinder(const Resistance& of, const StepLimits& limits, NodeState& state,
-              const NodeForces& forces, std::span<const double> furthest,
-              geometry::ThreadPool& pool)
+              const NodeForces& forces, std::vector<double> furthest, geometry::ThreadPool& pool)
       : of_(of),
         limits_(&limits),
         state_(&state),
         forces_(&forces),
-        furthest_(furthest),
+        furthest_(std::move(furthest)),
         pool_(&pool) {}
 
   /// Who is at fault, and what to do about it.
   /// @param suspect  what acted where energy came from nowhere; may be empty
   std::string fault(const Divergence& divergence, const Drifts& drifts, const std::string& suspect);
+
+  /// m, what a node may move in a step.
+  double furthest(NodeId node) const noexcept { return furthest_[index_of(node)]; }
 
   /// What acted most on the node, and how; empty if nothing does.
   /// @param state  where the forces were found
@@ -60,7 +63,7 @@ class FaultFinder {
   const StepLimits* limits_;
   NodeState* state_;
   const NodeForces* forces_;
-  std::span<const double> furthest_;
+  std::vector<double> furthest_;
   geometry::ThreadPool* pool_;
 };
 

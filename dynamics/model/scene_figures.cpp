@@ -24,13 +24,16 @@ double smallest_radius(const geometry::Elements& elements) {
 
 }  // namespace
 
-std::vector<double> furthest_in_a_step(const Scene& scene) {
+double largest_radius(const geometry::Elements& elements) {
   double radius = 0.0;
-  for (const auto& sphere : scene.elements.spheres) radius = std::max(radius, sphere.radius);
-  for (const auto& cylinder : scene.elements.cylinders) radius = std::max(radius, cylinder.radius);
-  for (const auto& facet : scene.elements.facets) radius = std::max(radius, facet.radius);
-  std::vector<double> furthest(scene.state.size(),
-                               radius > 0.0 ? radius : std::numeric_limits<double>::infinity());
+  for (const auto& sphere : elements.spheres) radius = std::max(radius, sphere.radius);
+  for (const auto& cylinder : elements.cylinders) radius = std::max(radius, cylinder.radius);
+  for (const auto& facet : elements.facets) radius = std::max(radius, facet.radius);
+  return radius > 0.0 ? radius : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> furthest_in_a_step(const Scene& scene, double largest) {
+  std::vector<double> furthest(scene.state.size(), largest);
   for (const auto& sphere : scene.elements.spheres)
     furthest[index_of(sphere.nodes[0])] = sphere.radius;
   return furthest;

@@ -9,10 +9,13 @@
 /// What follows from a scene, whatever its contact law.
 namespace plekton::dynamics {
 
+/// m, of any element; infinite where there is none.
+double largest_radius(const geometry::Elements& elements);
+
 /// m, by node: what it may move in one step before nothing could notice it any more. A sphere its
-/// own radius, so that it cannot jump over what it should touch; other nodes the largest radius;
-/// what they like, where there are no elements at all.
-std::vector<double> furthest_in_a_step(const Scene& scene);
+/// own radius, so that it cannot jump over what it should touch; other nodes the largest radius.
+/// @param largest  m, largest_radius() of all there were at the start
+std::vector<double> furthest_in_a_step(const Scene& scene, double largest);
 
 /// m, smallest radius of a cylinder or facet; infinite where there is none.
 double thinnest_structure(const geometry::Elements& elements);

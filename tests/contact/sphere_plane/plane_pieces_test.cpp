@@ -24,7 +24,7 @@ struct ChainOnPlanes {
     std::vector<Vec3> x;
     for (std::size_t i = 0; i < kCount + 300; ++i) {
       const auto sphere = static_cast<std::int32_t>(i);
-      spheres.push_back({geometry::id_at<NodeId>(i), 0.5, MaterialId{0}, 1.0});
+      spheres.push_back({geometry::id_at<NodeId>(i), 0.5, MaterialId{0}, -1, 1.0});
       x.emplace_back(0.99 * static_cast<double>(i), 0, 0);
       if (i > 0 && i < kCount) pairs.push_back({sphere - 1, sphere});
       keys.push_back({sphere, 0});

@@ -19,7 +19,7 @@ constexpr int kRanks = 3;
 struct Chain {
   explicit Chain(std::size_t count = kCount) {
     for (std::size_t i = 0; i < count; ++i) {
-      spheres.push_back({geometry::id_at<NodeId>(i), 0.5, MaterialId{0}, 1.0});
+      spheres.push_back({geometry::id_at<NodeId>(i), 0.5, MaterialId{0}, -1, 1.0});
       x.emplace_back(0.99 * static_cast<double>(i), 0, 0);
       if (i > 0) {
         const auto b = static_cast<std::int32_t>(i);

@@ -189,7 +189,7 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
   std::vector<SphereBody> balls;
   std::vector<geometry::IndexPair> pairs;
   for (std::int32_t b = 0; b < std::int32_t{kBalls}; ++b) {
-    balls.push_back({NodeId{b}, 1e-3, MaterialId{0}, kMass});
+    balls.push_back({NodeId{b}, 1e-3, MaterialId{0}, -1, kMass});
     for (std::int32_t a = 0; a < b; ++a) pairs.push_back({a, b});
   }
   std::sort(pairs.begin(), pairs.end());

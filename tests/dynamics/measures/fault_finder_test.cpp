@@ -38,7 +38,7 @@ struct Finder : test::ResistingScene {
 
   StepLimits limits{resistance()};
   NodeForces on_nodes{scene.state.size()};
-  std::vector<double> furthest = furthest_in_a_step(scene);
+  std::vector<double> furthest = furthest_in_a_step(scene, largest_radius(scene.elements));
 };
 
 Scene of_nodes(const std::vector<Vec3>& places) {

@@ -34,7 +34,8 @@ Scene of_all_kinds() {
 
 TEST(SceneFigures, MeasureMotionByTheSmallestAndTheLargestRadius) {
   Scene scene = of_all_kinds();
-  EXPECT_THAT(furthest_in_a_step(scene), ElementsAre(0.2, 0.1, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3));
+  EXPECT_THAT(furthest_in_a_step(scene, largest_radius(scene.elements)),
+              ElementsAre(0.2, 0.1, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3));
   EXPECT_EQ(pace_radius(scene.elements), 0.1);  // of the spheres, whatever is thinner
   EXPECT_EQ(thinnest_structure(scene.elements), 0.05);
   EXPECT_EQ(chosen_skin(scene, 0.0), 0.2 * 0.1);
@@ -48,7 +49,7 @@ TEST(SceneFigures, MeasureMotionByTheSmallestAndTheLargestRadius) {
   EXPECT_EQ(pace_radius(scene.elements), kInfinity);
   EXPECT_EQ(thinnest_structure(scene.elements), kInfinity);
   EXPECT_TRUE(std::isfinite(chosen_skin(scene, 0.0)));
-  EXPECT_THAT(furthest_in_a_step(scene), testing::Each(kInfinity));
+  EXPECT_THAT(furthest_in_a_step(scene, largest_radius(scene.elements)), testing::Each(kInfinity));
 }
 
 TEST(SceneFigures, HaveABallAroundEachNodeThatBelongsToAnElement) {
