@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "geometry/base/pack.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/elements.hpp"
 
@@ -53,6 +54,12 @@ class DeferredPairs {
   /// Whether those that were due in the last step are all that can be in range.
   bool is_known(const NextCheck& next_check) const noexcept {
     return !all_are_due_ && moved_ < next_check.at;
+  }
+
+  /// Asks for what find() will read of these.
+  PLEKTON_INLINE void ask_ahead(const NearCells& near) const noexcept {
+    __builtin_prefetch(check_at_.data() + near.first);
+    __builtin_prefetch(cells_.data() + near.first);
   }
 
   /// The cells of a pair that may be nearer than range (m) to its sphere, ascending.

@@ -3,6 +3,7 @@
 
 #include "contact/law/any_law.hpp"
 #include "contact/tracking/contact_memory.hpp"
+#include "contact/tracking/reused_list.hpp"
 #include "geometry/primitives/feature.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
@@ -40,7 +41,7 @@ struct ContactsOfPair {
 class PatchContacts {
  public:
   struct List {
-    std::vector<PatchContact> contacts;
+    ReusedList<PatchContact> contacts;
     std::vector<geometry::Feature> minima;
   };
   /// Where the contacts of a pair are.
@@ -93,9 +94,9 @@ class PatchContacts {
     List& list = lists_[0];
     if (range.count == 0) range = {0, static_cast<std::uint32_t>(list.contacts.size()), 0};
     ++range.count;
-    list.contacts.push_back(contact);
-    list.contacts.back().first_minimum = static_cast<std::uint32_t>(list.minima.size());
-    list.contacts.back().minimum_count = static_cast<std::uint32_t>(minima.size());
+    PatchContact& last = list.contacts.add() = contact;
+    last.first_minimum = static_cast<std::uint32_t>(list.minima.size());
+    last.minimum_count = static_cast<std::uint32_t>(minima.size());
     list.minima.insert(list.minima.end(), minima.begin(), minima.end());
   }
 

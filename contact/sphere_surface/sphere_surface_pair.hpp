@@ -16,10 +16,10 @@ namespace plekton::contact {
 struct SphereSurfacePair {
   double radius;                  ///< m, of the sphere
   double range;                   ///< m, radius of sphere + radius of surface
-  AnyLaw::Parameters parameters;  ///< without the attraction
+  double reach;                   ///< m, the range and the law's reach
   double attraction;              ///< N, of one contact
   NodeId node;                    ///< the sphere's
-  double reach;                   ///< m, the range and the law's reach
+  AnyLaw::Parameters parameters;  ///< without the attraction
 
   NormalPart normal() const noexcept { return {parameters, attraction}; }
 };

@@ -31,13 +31,13 @@ double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
         {sphere.material, sphere.radius, sphere.mass},
         {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
     const double range = sphere.radius + radius_b;
-    return Pair{{sphere.radius, range, AnyLaw::without_attraction(parameters),
-                 AnyLaw::attraction(parameters), sphere.node,
-                 range + AnyLaw::interaction_range(parameters)},
-                near[i],
-                old ? old->contacts : PatchContacts::Range{},
-                old ? old->single_face : kNoFace,
-                {}};
+    return Pair{
+        {near[i],
+         old ? old->contacts : PatchContacts::Range{},
+         old ? old->single_face : kNoFace,
+         {}},
+        {sphere.radius, range, range + AnyLaw::interaction_range(parameters),
+         AnyLaw::attraction(parameters), sphere.node, AnyLaw::without_attraction(parameters)}};
   };
   rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
   watch_.rebuild(cells);
@@ -124,6 +124,7 @@ std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end, const
   worker.lone.clear();
   std::size_t i = begin;
   for (; i < end; ++i) {
+    ask_ahead(i, end);
     Pair& pair = pairs_[i];
     if (watch_.is_deferred(pair.next_check)) continue;
     Job job{i, worker.cells.size(), 0, kNoLane};
@@ -205,7 +206,7 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
   record.contact = pair.contacts.first;
 
-  PatchContact& contact = list.contacts.emplace_back();
+  PatchContact& contact = list.contacts.add();
   answer.get_history(*pair.parameters.law, contact.memory.history);
   contact.memory.normal = answer.normal();
   contact.foot = answer.foot();
@@ -266,7 +267,7 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
   const auto patches =
       worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one, pair.range));
 
-  const std::vector<PatchContact>& contacts = current_.of_worker(worker_index).contacts;
+  const auto& contacts = current_.of_worker(worker_index).contacts;
   const std::size_t first = contacts.size();
   const bool is_alone = patches.size() == 1 && pair.contacts.count <= 1 &&
                         is_single_feature(worker.patches.terms(patches.front()));
@@ -331,14 +332,14 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
   }
   AnyLaw::History next = transferred.history;
   const ContactForce result = AnyLaw::force(pair.parameters, relative, next, dt);
-  list.contacts.push_back({{next, state.normal},
-                           state.foot,
-                           state.gap,
-                           state.elastic_force,
-                           state.elastic_energy,
-                           transferred.id,
-                           first_minimum,
-                           static_cast<std::uint32_t>(list.minima.size()) - first_minimum});
+  list.contacts.add() = {{next, state.normal},
+                         state.foot,
+                         state.gap,
+                         state.elastic_force,
+                         state.elastic_energy,
+                         transferred.id,
+                         first_minimum,
+                         static_cast<std::uint32_t>(list.minima.size()) - first_minimum};
   write_forces(pair, terms, state, result, term_forces, worker_index);
   return result.dissipated;
 }
@@ -437,7 +438,7 @@ double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
 void SurfaceContacts::for_each_record(Positions x, VisitRecord visit) const {
   for (std::size_t w = 0; w < records_.lists().size(); ++w) {
     const auto& list = records_.lists()[w];
-    const std::span<const SurfaceForce> records{list.records.data(), list.count};
+    const std::span<const SurfaceForce> records{list.records.data(), list.records.size()};
     for (std::size_t begin = 0; begin < records.size();) {
       const std::uint32_t contact = records[begin].contact;
       std::size_t end = begin + 1;
@@ -516,9 +517,9 @@ SurfaceContactsState SurfaceContacts::state() const {
   }
   for (std::size_t w = 0; w < records_.lists().size(); ++w) {
     const auto& list = records_.lists()[w];
-    for (std::size_t i = 0; i < list.count; ++i) {
-      const std::uint32_t place = places[current_.count_before(w) + list.records[i].contact];
-      if (place != kGone) state.forces.push_back({place, list.records[i]});
+    for (const SurfaceForce& record : list.records) {
+      const std::uint32_t place = places[current_.count_before(w) + record.contact];
+      if (place != kGone) state.forces.push_back({place, record});
     }
   }
   return state;

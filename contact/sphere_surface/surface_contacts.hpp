@@ -21,6 +21,7 @@
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -129,12 +130,15 @@ class SurfaceContacts {
                  geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
 
  private:
-  struct Pair : SphereSurfacePair {
+  /// What there is of a pair in this list and step.
+  struct PairNow {
     NearCells near;
     PatchContacts::Range contacts;
     geometry::FaceId single_face;  ///< whose inside was the only contact in the last step; or none
     DeferredPairs::NextCheck next_check;
   };
+  /// What each step reads is at the front.
+  struct Pair : PairNow, SphereSurfacePair {};
   static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is due, with the cells that may be in range.
   struct Job {
@@ -159,6 +163,17 @@ class SurfaceContacts {
 
   EnergyLoss advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
                            int worker);
+  /// Asks for what looking at later pairs will read: pairs and what is kept of them are large.
+  PLEKTON_INLINE void ask_ahead(std::size_t pair, std::size_t end) const noexcept {
+    constexpr std::size_t kAhead = 8;
+    const Pair& later = pairs_[std::min(pair + 2 * kAhead, end - 1)];
+    __builtin_prefetch(&later.near);
+    __builtin_prefetch(&later.radius);
+    __builtin_prefetch(&later.parameters.numbers);
+    const Pair& next = pairs_[std::min(pair + kAhead, end - 1)];
+    watch_.ask_ahead(next.near);
+    if (next.contacts.count > 0) __builtin_prefetch(&previous_.contacts_of(next.contacts)[0]);
+  }
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
   bool may_be_single_feature(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
                              Worker& worker);

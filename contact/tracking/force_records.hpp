@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/tracking/interpolation.hpp"
+#include "contact/tracking/reused_list.hpp"
 #include "geometry/base/thread_pool.hpp"
 
 #include <algorithm>
@@ -49,16 +50,13 @@ class ForceRecords {
  public:
   /// What one worker wrote down.
   struct alignas(64) List {
-    std::vector<Record> records;  ///< the first count of them
-    std::size_t count = 0;
+    ReusedList<Record> records;
     double deepest = 0.0;  ///< largest overlap over the radius of the smaller sphere
 
     /// @returns a record to be filled in; before that it holds anything
     Record& add(double overlap_ratio) {
       deepest = std::max(deepest, overlap_ratio);
-      // The vector keeps its size from step to step: making a record again would write it twice.
-      if (count == records.size()) records.resize(2 * count + 64);
-      return records[count++];
+      return records.add();
     }
     void add(const Record& record, double overlap_ratio) { add(overlap_ratio) = record; }
   };
@@ -67,7 +65,7 @@ class ForceRecords {
   void reset(int worker_count) {
     lists_.resize(static_cast<std::size_t>(worker_count));
     for (List& list : lists_) {
-      list.count = 0;
+      list.records.clear();
       list.deepest = 0.0;
     }
   }
@@ -77,13 +75,13 @@ class ForceRecords {
   void keep_if(Keep&& keep) {
     for (List& list : lists_) {
       std::size_t kept = 0;
-      for (std::size_t i = 0; i < list.count; ++i) {
+      for (std::size_t i = 0; i < list.records.size(); ++i) {
         Record& record = list.records[i];
         if (!keep(record)) continue;
         if (kept != i) list.records[kept] = record;
         ++kept;
       }
-      list.count = kept;
+      list.records.shrink(kept);
     }
   }
 
@@ -95,9 +93,9 @@ class ForceRecords {
   template <class Visit>
   void for_each_contact(Visit&& visit) const {
     for (const List& list : lists_) {
-      for (std::size_t i = 0, end = 0; i < list.count; i = end) {
+      for (std::size_t i = 0, end = 0; i < list.records.size(); i = end) {
         const Record& first = list.records[i];
-        for (end = i + 1; end < list.count; ++end) {
+        for (end = i + 1; end < list.records.size(); ++end) {
           const Record& next = list.records[end];
           if (next.pair != first.pair || next.contact != first.contact) break;
         }
@@ -108,13 +106,13 @@ class ForceRecords {
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const List& list : lists_) {
-      for (std::size_t i = 0; i < list.count; ++i) visit(list.records[i]);
+      for (const Record& record : list.records) visit(record);
     }
   }
 
   std::size_t size() const noexcept {
     std::size_t count = 0;
-    for (const List& list : lists_) count += list.count;
+    for (const List& list : lists_) count += list.records.size();
     return count;
   }
 

@@ -227,7 +227,7 @@ struct Valley {
   std::vector<Vec3> still = std::vector<Vec3>(complex.x.size() + 1, Vec3::Zero());
   PatchFinder finder{surface};
   HistoryTransfer transfer{surface};
-  SphereSurfacePair pair{0.9, 1.0, {}, 0.0, id_at<NodeId>(complex.x.size()), 1.0};
+  SphereSurfacePair pair{0.9, 1.0, 1.0, 0.0, id_at<NodeId>(complex.x.size()), {}};
   const Vec3 slip{0.0, 0.002, 0.0};  // m
   std::vector<PatchContact> last;
   std::vector<Feature> minima;

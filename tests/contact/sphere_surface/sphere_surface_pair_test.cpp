@@ -20,7 +20,7 @@ struct BallOnSheet {
     const auto parameters =
         MaterialPairs({{kSpring, 0.5, 0.4}})
             .combine(BodyPart{MaterialId{0}, 1.0}, BodyPart{MaterialId{0}, 1.0});
-    pair = {0.9, 1.0, parameters, attraction, id_at<NodeId>(complex.x.size() - 1), 1.0};
+    pair = {0.9, 1.0, 1.0, attraction, id_at<NodeId>(complex.x.size() - 1), parameters};
   }
   double energy() { return normal_energy(pair, finder, all_cells(surface), complex.x); }
 

@@ -22,11 +22,11 @@ TEST(SurfaceContactRow, DoesToTheSphereWhatAllItsTermsDo) {
   const SphereSurfacePair pair{
       1.0,
       1.1,
-      MaterialPairs({{1e6, 0.5, 0.4}})
-          .combine(BodyPart{MaterialId{0}, 1.0}, BodyPart{MaterialId{0}, 0.1}),
+      1.1,
       0.0,
       NodeId{0},
-      1.1};
+      MaterialPairs({{1e6, 0.5, 0.4}})
+          .combine(BodyPart{MaterialId{0}, 1.0}, BodyPart{MaterialId{0}, 0.1})};
   PatchContact contact{};
   contact.memory.normal = -Vec3::UnitZ();
   contact.foot = Vec3(0, 0, -1.0);
