@@ -365,9 +365,7 @@ bool Simulation::step_until(double end) {
 
 /// No node is looked at while none is fast enough.
 void Simulation::check_motion() {
-  const bool is_slow =
-      fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
-  if (is_slow) return;
+  if (fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi) return;
   nodes_.know_all();
   if (const auto runaway =
           find_runaway(scene_.state, furthest_in_a_step(scene_, largest_radius_), drift_))
@@ -405,11 +403,9 @@ void Simulation::check_energy() {
   // Where next to nothing moves yet, as in the first steps under a load, what steps cut off is many
   // times the energy there is. All of it in one node would not take that further between two looks
   // than anything may go in a step: nobody could see it.
-  const std::size_t i = index_of(divergence.node);
-  const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
-  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <=
-      finder.furthest(divergence.node))
-    return;
+  const double speed = std::sqrt(2.0 * made / scene_.properties.mass[index_of(divergence.node)]);
+  const double way = static_cast<double>(kStepsBetweenLooks) * speed * last_drift_;
+  if (way <= finder.furthest(divergence.node)) return;
   throw Diverged(
       divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_, scene_.state,
       finder.fault(divergence, {last_drift_, last_drift_, chooser_ != nullptr}, ledger_.suspect()));
@@ -433,9 +429,7 @@ void Simulation::watch_momentum() {
 
 FaultFinder Simulation::fault_finder() {
   nodes_.know_all();
-  return {
-      resistance(), *limits_, scene_.state, forces_, furthest_in_a_step(scene_, largest_radius_),
-      pool_};
+  return {resistance(), *limits_, scene_.state, forces_, largest_radius_, pool_};
 }
 
 // Loads.

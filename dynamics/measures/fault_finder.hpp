@@ -3,11 +3,11 @@
 
 #include "contact/tracking/contact_record.hpp"
 #include "dynamics/measures/diverged.hpp"
+#include "dynamics/model/scene_figures.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 
 #include <iosfwd>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -27,14 +27,14 @@ class FaultFinder {
   /// All of it must outlive this.
   /// @param state     of the scene; moved back to where the forces were found while it is looked at
   /// @param forces    of the last step
-  /// @param furthest  m, by node, what it may move in a step
+  /// @param largest_radius  m, of all elements that there were at the start
   FaultFinder(const Resistance& of, const StepLimits& limits, NodeState& state,
-              const NodeForces& forces, std::vector<double> furthest, geometry::ThreadPool& pool)
+              const NodeForces& forces, double largest_radius, geometry::ThreadPool& pool)
       : of_(of),
         limits_(&limits),
         state_(&state),
         forces_(&forces),
-        furthest_(std::move(furthest)),
+        furthest_(furthest_in_a_step(of.scene, largest_radius)),
         pool_(&pool) {}
 
   /// Who is at fault, and what to do about it.
@@ -63,7 +63,7 @@ class FaultFinder {
   const StepLimits* limits_;
   NodeState* state_;
   const NodeForces* forces_;
-  std::vector<double> furthest_;
+  std::vector<double> furthest_;  ///< m, by node
   geometry::ThreadPool* pool_;
 };
 

@@ -28,7 +28,7 @@ constexpr BeamSection kBar{1e6, 1e6, 1e-4, 0.0, 0.0};  // E A = 100 N
 struct Finder : test::ResistingScene {
   explicit Finder(Scene of) : ResistingScene(std::move(of)) {}
 
-  FaultFinder finder() { return {resistance(), limits, scene.state, on_nodes, furthest, pool}; }
+  FaultFinder finder() { return {resistance(), limits, scene.state, on_nodes, largest, pool}; }
   std::string strongest(Sign sign, NodeId node) {
     return finder().strongest_action({sign, node}, scene.state);
   }
@@ -38,7 +38,7 @@ struct Finder : test::ResistingScene {
 
   StepLimits limits{resistance()};
   NodeForces on_nodes{scene.state.size()};
-  std::vector<double> furthest = furthest_in_a_step(scene, largest_radius(scene.elements));
+  double largest = largest_radius(scene.elements);  ///< m
 };
 
 Scene of_nodes(const std::vector<Vec3>& places) {
@@ -202,7 +202,7 @@ TEST(Fault, IsASpeedThatWasThereBeforeTheForces) {
   Scene scene = of_nodes({Vec3::Zero()});
   scene.state.velocity[0] = Vec3(5, 0, 0);
   Finder lump(std::move(scene));
-  lump.furthest = {1.0};
+  lump.largest = 1.0;
   EXPECT_EQ(lump.fault(Sign::motion, NodeId{0}, kDrifts), given);
 
   lump.on_nodes.force[0] = Vec3(2.0 * 5.0, 0, 0);  // N, for a second: all of its momentum

@@ -146,8 +146,8 @@ TEST(StepWithDashpots, IsLimitedByTheSumOfThoseAroundABall) {
   }
 }
 
-// What drags on the nodes made a step shorter in which the dashpots had counted for less: up to a
-// quarter too long.
+// What drags on the nodes made a step shorter in which the dashpots had counted for less: up to 17 %
+// too long.
 TEST(StepWithDashpots, IsLimitedByThemTogetherWithWhatDragsOnTheNodes) {
   for (const double xi : {0.05, 0.3, 1.0}) {
     for (const double drag : {50.0, 300.0}) {  // 1/s; omega is 141 /s
