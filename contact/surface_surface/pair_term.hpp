@@ -32,6 +32,12 @@ struct PairTerm {
   double push = 0.0;         ///< N, how hard these push the features apart, along their normal
 };
 
+/// A pair of cells that has the features of a term.
+struct Holder {
+  std::uint32_t pair;
+  bool is_turned;  ///< feature a belongs to its second cell
+};
+
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair);
 
 /// Where the cores of a term are nearest.

@@ -3,21 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace plekton::contact::structure {
 namespace {
-
-/// Calls visit(i) for i below a count. Terms cost very different times, and the costly ones come
-/// first: threads take turns.
-template <class Visit>
-void in_turns(std::size_t count, geometry::ThreadPool& pool, Visit visit) {
-  const auto stride = static_cast<std::size_t>(pool.thread_count());
-  pool.for_each_range(stride, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t first = begin; first < end; ++first) {
-      for (std::size_t i = first; i < count; i += stride) visit(i);
-    }
-  });
-}
 
 geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned corners) noexcept {
   geometry::FeatureNodes some{nodes.ids, 0};
@@ -83,8 +72,8 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   tilts_.resize(pairs.size());
   extents_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
-  by_tilt_.assign(pairs.size(), {});
-  has_tilting_ = false;
+  ring_tilts_.assign(pairs.size(), {});
+  has_ring_tilts_ = false;
   clearances_.clear();
   joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
@@ -107,30 +96,37 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   }
   joints_.finish(terms_, term_of_pair_);
   first_holders_.push_back(static_cast<std::uint32_t>(holders_.size()));
+  shared_.resize(terms_.size());
+  nearest_.resize(terms_.size());
+  is_acting_.assign(terms_.size(), 0);
+  list_terms_of_pairs();
+}
+
+void PairTerms::list_terms_of_pairs() {
+  first_terms_.assign(term_of_pair_.size() + 1, 0);
+  for (const Holder& holder : holders_) ++first_terms_[holder.pair + 1];
+  std::inclusive_scan(first_terms_.begin(), first_terms_.end(), first_terms_.begin());
+  terms_of_pairs_.resize(holders_.size());
+  std::vector<std::uint32_t> next(first_terms_);
+  for (std::uint32_t i = 0; i < terms_.size(); ++i) {
+    for (const Holder& holder : holders(terms_[i])) terms_of_pairs_[next[holder.pair]++] = i;
+  }
 }
 
 void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& motion,
                          geometry::ThreadPool& pool) {
   if (terms_are_new_) prepare_springs(springs);
   find_near_pairs(springs, motion, pool);
-  list_candidates();
-  is_acting_.resize(candidates_.size());
-  shared_.resize(candidates_.size());
-  nearest_.resize(candidates_.size());
-  in_turns(candidates_.size(), pool,
-           [&](std::size_t i) { is_acting_[i] = evaluate_candidate(i, springs, motion.position); });
-  acted_.swap(acting_);
-  acting_.clear();
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
-  }
-  if (has_tilting_) by_tilt_.assign(term_of_pair_.size(), {});
-  has_tilting_ = false;
-  give_back_of_rings(springs, motion.position);
-  tilt_cells(springs, motion.position);
-  joints_.gather(acting_);
+  pool.for_each_shared(near_.size(), [&](std::size_t i, int) {
+    evaluate_terms_of(near_[i], springs, motion.position);
+  });
+  list_acting();
   acting_changed_ = terms_are_new_ || acting_ != acted_;
   terms_are_new_ = false;
+  if (acting_changed_) parts_.find(in_range(), term_of_pair_.size());
+  give_back_of_rings(springs, motion.position, pool);
+  tilt_cells(springs, motion.position, pool);
+  joints_.gather(acting_);
 }
 
 /// What there is to know of all springs, of which there may be many more than terms.
@@ -166,7 +162,7 @@ void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Mot
   }
   due_.clear();
   clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
-  in_turns(due_.size(), pool, [&](std::size_t i) {
+  pool.for_each_shared(due_.size(), [&](std::size_t i, int) {
     const std::uint32_t pair = due_[i];
     const PairTerm& term = terms_[term_of_pair_[pair]];
     TermProximity& found = proximity_[pair];
@@ -174,69 +170,80 @@ void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Mot
                                                   found.cores.points.corners_b};
     found =
         proximity(term, springs[term.spring].range(), motion.position, is_near_[pair] != 0, last);
+    clearances_.set(pair, found.clearance);
+    is_near_[pair] = found.clearance < 0.0;
+    tilts_[pair] = found.tilt;
   });
-  for (const std::uint32_t pair : due_) {
-    clearances_.set(pair, proximity_[pair].clearance);
-    is_near_[pair] = proximity_[pair].clearance < 0.0;
-    tilts_[pair] = proximity_[pair].tilt;
+  near_.clear();
+  for (const std::uint32_t pair : due_)
+    if (is_near_[pair] != 0) near_.push_back(pair);
+}
+
+/// Of those of which a pair in range is the first that has them: a thread that looks at a pair sees
+/// to all of it, so that little goes from core to core. Those may be in range that no pair out of
+/// range has.
+void PairTerms::evaluate_terms_of(std::uint32_t pair, std::span<const NormalSpring> springs,
+                                  Positions x) {
+  for (const std::uint32_t i : terms_of(pair)) {
+    const auto having = holders_of(i);
+    if (having.front().pair != pair) continue;
+    shared_[i] = {};
+    if (std::all_of(having.begin(), having.end(),
+                    [&](const Holder& of) { return is_near_[of.pair] != 0; }))
+      is_acting_[i] = evaluate_term(i, springs, x);
   }
 }
 
-/// Terms that may be in range: all pairs of cells that have them are.
-void PairTerms::list_candidates() {
-  candidates_.clear();
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    // A term's holders lie behind those of the one before.
-    const Holder* const first = holders_.data() + first_holders_[i];
-    const Holder* const last = holders_.data() + first_holders_[i + 1];
-    if (std::all_of(first, last, [&](const Holder& of) { return is_near_[of.pair] != 0; }))
-      candidates_.push_back(static_cast<std::uint32_t>(i));
+void PairTerms::list_acting() {
+  acted_.swap(acting_);
+  acting_.clear();
+  for (std::uint32_t i = 0; i < is_acting_.size(); ++i) {
+    if (is_acting_[i] == 0) continue;
+    is_acting_[i] = 0;
+    acting_.push_back(i);
   }
 }
 
 /// @returns whether it is in range
-bool PairTerms::evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
-                                   Positions x) {
-  const PairTerm& term = terms_[candidates_[candidate]];
+bool PairTerms::evaluate_term(std::uint32_t i, std::span<const NormalSpring> springs, Positions x) {
+  const PairTerm& term = terms_[i];
   const NormalSpring& spring = springs[term.spring];
-  shared_[candidate] = {};
   if (term.is_of_cells) {
-    act(candidate, proximity_[holders(term).front().pair], spring, x);
+    act(i, proximity_[holders(term).front().pair], spring, x);
     return true;
   }
   TermProximity own;
   for (const Holder& holder : holders(term)) {
     const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
     if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
-    act(candidate, own, spring, x);
+    act(i, own, spring, x);
     return true;
   }
   own = proximity(term, spring.range(), x, false, {});
-  if (own.clearance < 0.0) act(candidate, own, spring, x);
+  if (own.clearance < 0.0) act(i, own, spring, x);
   return own.clearance < 0.0;
 }
 
-void PairTerms::act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
+void PairTerms::act(std::uint32_t i, const TermProximity& found, const NormalSpring& spring,
                     Positions x) {
-  const std::uint32_t i = candidates_[candidate];
   PairTerm& term = terms_[i];
   term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
   term.overlap = spring.range() - found.cores.signed_distance;
-  nearest_[candidate] = {found.cores.points.corners_a, found.cores.points.corners_b};
-  const PointShare share = share_of(term, nearest_[candidate], spring.range(), x);
+  nearest_[i] = {found.cores.points.corners_a, found.cores.points.corners_b};
+  const PointShare share = share_of(term, nearest_[i], spring.range(), x);
   const TermForces pushing = term_forces(term, found, share, spring, x);
   term.point_share = share.share;
   term.forces = pushing.forces;
   term.own_energy = pushing.forces.energy;
   if (term.a.count == 3 && term.b.count == 3) extents_[holders(term).front().pair] = pushing.extent;
-  shared_[candidate][0] = pushing.shared;
+  shared_[i][0] = pushing.shared;
   term.push = push_of(term, found.cores.normal);
   term.push += joints_.evaluate(i, term, found, spring, x, false, term.forces);
   if (!spring.attracts()) return;
   const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
   attractions_[i] = pulling.forces;
   joints_.evaluate(i, term, found, spring.attraction(), x, true, attractions_[i]);
-  shared_[candidate][1] = pulling.shared;
+  shared_[i][1] = pulling.shared;
 }
 
 PairForces PairTerms::own_forces(std::size_t term, const NormalSpring& spring, Positions x) const {
@@ -281,30 +288,24 @@ RimPlaces PairTerms::rims_of(const PairTerm& term, const NearestCorners& nearest
   return rim_places(*surface_, cells, some_of(term.a, nearest.a), some_of(term.b, nearest.b));
 }
 
-void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
+void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x,
+                                   geometry::ThreadPool& pool) {
+  if (has_ring_tilts_) ring_tilts_.assign(term_of_pair_.size(), {});
+  has_ring_tilts_ = false;
   const double least_life = RingWeights::kLeastLife * largest_range_;
-  if (!search_.find(acting_, terms_, holders_, term_of_pair_.size(), least_life)) return;
-  ring_terms_.clear();
-  for (const std::uint32_t term : acting_) {
-    const std::uint32_t part = search_.part_of(holders(terms_[term]).front().pair);
-    if (search_.is_more(part)) ring_terms_.push_back({part, term});
-  }
-  std::sort(ring_terms_.begin(), ring_terms_.end());
-  const auto pairs = search_.pairs();
-  auto term = ring_terms_.begin();
-  for (std::size_t first = 0, end = 0; first < pairs.size(); first = end) {
-    const std::uint32_t part = search_.part_of(pairs[first]);
-    while (end < pairs.size() && search_.part_of(pairs[end]) == part) ++end;
-    const auto first_term = term;
-    while (term != ring_terms_.end() && term->part == part) ++term;
-    give_back(pairs.subspan(first, end - first), {first_term, term}, springs, x);
-  }
+  for (const std::uint32_t part :
+       search_.find(in_range(), parts_, acting_changed_, least_life, pool))
+    give_back(part, springs, x);
 }
 
-/// @param pairs  of cells of one part, all in range
-/// @param terms  of it, all in range
-void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
-                          std::span<const NormalSpring> springs, Positions x) {
+void PairTerms::give_back(std::uint32_t part, std::span<const NormalSpring> springs, Positions x) {
+  ring_pairs_.clear();
+  for (const std::uint32_t place : parts_.places(part)) {
+    const PairTerm& term = terms_[acting_[place]];
+    if (term.is_of_cells) ring_pairs_.push_back(holders(term).front().pair);
+  }
+  std::sort(ring_pairs_.begin(), ring_pairs_.end());
+  const std::span<const std::uint32_t> pairs = ring_pairs_;
   const NormalSpring& spring = springs[of_cells(pairs.front()).spring];
   const double share = flatness_share(pairs, spring.range());
   // Less would drown in the rounding of what there is.
@@ -314,9 +315,10 @@ void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const 
     ring_cells_.push_back({&of_cells(pair).a, &of_cells(pair).b, &proximity_[pair].cores});
   complex_.build(ring_cells_, spring.range(), x);
   counts_.assign(complex_.levels().distances().size(), 0.0);
-  for (const RingTerm& of : terms) {
-    const std::uint32_t vertex = complex_.vertex_of(terms_[of.term].a, terms_[of.term].b);
-    if (vertex != ProductComplex::kNone) counts_[vertex] += terms_[of.term].weight;
+  for (const std::uint32_t place : parts_.places(part)) {
+    const PairTerm& term = terms_[acting_[place]];
+    const std::uint32_t vertex = complex_.vertex_of(term.a, term.b);
+    if (vertex != ProductComplex::kNone) counts_[vertex] += term.weight;
   }
   if (!complex_.levels().fillings().empty() && most_rings() > kMostRings) return;
   add_rings(pairs, share, spring, false);
@@ -391,17 +393,17 @@ void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy
     add_on_nodes(term.a, forces.on_a, term, to);
     add_on_nodes(term.b, forces.on_b, term, to);
     if (!pulls) term.push += force;
-    by_tilt_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
-    has_tilting_ = true;
+    ring_tilts_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
+    has_ring_tilts_ = true;
   }
 }
 
 /// Adds what the rims of two facets beside each other do as they turn.
 /// @param energies  J, of which a part lies beside, of attraction in the second
 /// @returns that part
-double PairTerms::turn_rims(std::size_t candidate, std::uint32_t pair,
+double PairTerms::turn_rims(std::uint32_t term, std::uint32_t pair,
                             const std::array<double, 2>& energies, Positions x) {
-  const RimPlaces rims = rims_of(terms_[candidates_[candidate]], nearest_[candidate], pair);
+  const RimPlaces rims = rims_of(terms_[term], nearest_[term], pair);
   if (rims.a == 0) return 0.0;
   const std::uint32_t cells = term_of_pair_[pair];
   const Real share = rim_share(terms_[cells], rims, x);
@@ -411,29 +413,31 @@ double PairTerms::turn_rims(std::size_t candidate, std::uint32_t pair,
 }
 
 /// The tilts of pairs of cells turn the nodes of both facets, also those that a term does not have.
-void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (shared_[i] == std::array{0.0, 0.0}) continue;
-    const PairTerm& term = terms_[candidates_[i]];
-    const double range = springs[term.spring].range();
+/// Each pair adds to its own term alone.
+void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x,
+                           geometry::ThreadPool& pool) {
+  pool.for_each_shared(near_.size(), [&](std::size_t i, int) {
+    if (tilts_[near_[i]] >= 0.0) tilt(near_[i], springs, x);
+  });
+}
+
+void PairTerms::tilt(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x) {
+  std::array<double, 2> by_tilt = ring_tilts_[pair];
+  for (const std::uint32_t i : terms_of(pair)) {
+    if (is_near_[holders_of(i).front().pair] == 0 || shared_[i] == std::array{0.0, 0.0}) continue;
+    const PairTerm& term = terms_[i];
     const double part = 1.0 / static_cast<double>(term.holder_count);
-    for (const Holder& holder : holders(term)) {
-      const PointShare of = point_share(tilts_[holder.pair], term.overlap, range);
-      const std::array<double, 2> left{part * (1.0 - of.share) * shared_[i][0],
-                                       part * (1.0 - of.share) * shared_[i][1]};
-      const double beside = of.share < 1.0 ? turn_rims(i, holder.pair, left, x) : 0.0;
-      for (std::size_t k = 0; k < 2; ++k)
-        by_tilt_[holder.pair][k] += part * (1.0 - beside) * of.by_tilt * shared_[i][k];
-    }
-    has_tilting_ = true;
+    const PointShare of = point_share(tilts_[pair], term.overlap, springs[term.spring].range());
+    const std::array<double, 2> left{part * (1.0 - of.share) * shared_[i][0],
+                                     part * (1.0 - of.share) * shared_[i][1]};
+    const double beside = of.share < 1.0 ? turn_rims(i, pair, left, x) : 0.0;
+    for (std::size_t k = 0; k < 2; ++k)
+      by_tilt[k] += part * (1.0 - beside) * of.by_tilt * shared_[i][k];
   }
-  if (!has_tilting_) return;
-  for (std::size_t pair = 0; pair < by_tilt_.size(); ++pair) {
-    const std::uint32_t cells = term_of_pair_[pair];
-    const auto [pushing, pulling] = by_tilt_[pair];
-    if (pushing != 0.0) add_tilting(terms_[cells], pushing, x, terms_[cells].forces);
-    if (pulling != 0.0) add_tilting(terms_[cells], pulling, x, attractions_[cells]);
-  }
+  const std::uint32_t cells = term_of_pair_[pair];
+  const auto [pushing, pulling] = by_tilt;
+  if (pushing != 0.0) add_tilting(terms_[cells], pushing, x, terms_[cells].forces);
+  if (pulling != 0.0) add_tilting(terms_[cells], pulling, x, attractions_[cells]);
 }
 
 void PairTerms::exchange(const geometry::StateArchive& archive) {

@@ -6,6 +6,7 @@
 #include "contact/surface_surface/pair_term.hpp"
 #include "contact/surface_surface/product_complex.hpp"
 #include "contact/surface_surface/ring_search.hpp"
+#include "contact/surface_surface/term_parts.hpp"
 #include "contact/surface_surface/wrapped_joints.hpp"
 #include "geometry/base/thread_pool.hpp"
 
@@ -121,42 +122,49 @@ class PairTerms {
   std::span<const std::uint32_t> acting() const noexcept { return acting_; }
   /// Whether these are others than in the step before, or the terms are new.
   bool acting_changed() const noexcept { return acting_changed_; }
+  /// Which of them hang together.
+  const TermParts& parts() const noexcept { return parts_; }
 
  private:
-  /// A term of a part with rings.
-  struct RingTerm {
-    std::uint32_t part;
-    std::uint32_t term;
-    friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
-  };
   /// The corners of a term's features that span those which hold its nearest points.
   struct NearestCorners {
     unsigned a;
     unsigned b;
   };
+  void list_terms_of_pairs();
   double furthest(Positions x) const;
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
-  void list_candidates();
   void prepare_springs(std::span<const NormalSpring> springs);
-  bool evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
-                          Positions x);
-  void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
-           Positions x);
+  /// The same as holders(), for who has no need of the term.
+  std::span<const Holder> holders_of(std::uint32_t term) const noexcept {
+    return {holders_.data() + first_holders_[term], holders_.data() + first_holders_[term + 1]};
+  }
+  /// All that a pair of cells has, ascending.
+  std::span<const std::uint32_t> terms_of(std::uint32_t pair) const noexcept {
+    return {terms_of_pairs_.data() + first_terms_[pair],
+            terms_of_pairs_.data() + first_terms_[pair + 1]};
+  }
+  TermsInRange in_range() const noexcept { return {acting_, terms_, holders_}; }
+  void evaluate_terms_of(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x);
+  bool evaluate_term(std::uint32_t term, std::span<const NormalSpring> springs, Positions x);
+  void act(std::uint32_t term, const TermProximity& found, const NormalSpring& spring, Positions x);
+  void list_acting();
   PointShare share_of(const PairTerm& term, const NearestCorners& nearest, double range,
                       Positions x) const;
   RimPlaces rims_of(const PairTerm& term, const NearestCorners& nearest, std::uint32_t pair) const;
-  double turn_rims(std::size_t candidate, std::uint32_t pair, const std::array<double, 2>& energies,
+  double turn_rims(std::uint32_t term, std::uint32_t pair, const std::array<double, 2>& energies,
                    Positions x);
-  void give_back_of_rings(std::span<const NormalSpring> springs, Positions x);
-  void give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
-                 std::span<const NormalSpring> springs, Positions x);
+  void give_back_of_rings(std::span<const NormalSpring> springs, Positions x,
+                          geometry::ThreadPool& pool);
+  void give_back(std::uint32_t part, std::span<const NormalSpring> springs, Positions x);
   double most_rings() const noexcept;
   double flatness_share(std::span<const std::uint32_t> pairs, double range) const noexcept;
   void add_rings(std::span<const std::uint32_t> pairs, double share, const NormalSpring& spring,
                  bool pulls);
   void add_flatness(std::span<const std::uint32_t> pairs, double energy, double range, bool pulls);
-  void tilt_cells(std::span<const NormalSpring> springs, Positions x);
+  void tilt_cells(std::span<const NormalSpring> springs, Positions x, geometry::ThreadPool& pool);
+  void tilt(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x);
 
   const geometry::Surface* surface_;
   std::vector<PairTerm> terms_;
@@ -165,31 +173,35 @@ class PairTerms {
   std::vector<char> attracts_;  ///< by spring; empty if none does
   std::vector<PairForces>
       attractions_;  ///< by term, of those in range; empty if no spring attracts
-  std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
-  std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
-  double largest_range_ = 0.0;                ///< m, of all springs
+  std::vector<std::uint32_t> first_holders_;   ///< by term, and the number of all
+  std::vector<std::uint32_t> term_of_pair_;    ///< of both cells
+  std::vector<std::uint32_t> terms_of_pairs_;  ///< of all pairs: which it holds, ascending
+  std::vector<std::uint32_t> first_terms_;     ///< by pair, and the number of all these
+  double largest_range_ = 0.0;                 ///< m, of all springs
   bool terms_are_new_ = false;
   bool have_bars_ = false;
   Clearances clearances_;                 ///< of the pairs of cells
   std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
+  std::vector<std::uint32_t> near_;       ///< those of them that are
   std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
   std::vector<double> tilts_;             ///< by pair; of those in range, of proximity_
   std::vector<PairForces> extents_;       ///< by pair; of those of facets in range
   std::vector<char> is_near_;             ///< by pair: in range
-  std::vector<std::uint32_t> candidates_;
-  /// J, by candidate: what the share of a term is of; of attraction in the second.
+  /// J, by term: what the share of a term in range is of; of attraction in the second. Of terms out
+  /// of range that a pair in range has first, 0.
   std::vector<std::array<double, 2>> shared_;
-  std::vector<NearestCorners> nearest_;         ///< by candidate, of those in range
-  std::vector<std::array<double, 2>> by_tilt_;  ///< J, by pair of cells: of tilt_cells()
-  bool has_tilting_ = false;                    ///< any of them may not be 0
-  std::vector<char> is_acting_;                 ///< by candidate
+  std::vector<NearestCorners> nearest_;            ///< by term, of those in range
+  std::vector<std::array<double, 2>> ring_tilts_;  ///< J, by pair of cells: of rings, by its tilt
+  bool has_ring_tilts_ = false;                    ///< any of them may not be 0
+  std::vector<char> is_acting_;                    ///< by term; all 0 between calls
   std::vector<std::uint32_t> acting_;
   std::vector<std::uint32_t> acted_;  ///< in the step before
   bool acting_changed_ = false;
+  TermParts parts_;
   RingSearch search_;
   ProductComplex complex_;
   RingWeights rings_;
-  std::vector<RingTerm> ring_terms_;
+  std::vector<std::uint32_t> ring_pairs_;
   std::vector<ProductComplex::CellPair> ring_cells_;
   std::vector<double> counts_;    ///< by vertex: weights of the terms that stand there
   std::vector<double> energies_;  ///< J, by vertex

@@ -2,7 +2,6 @@
 #include "contact/surface_surface/ring_search.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace plekton::contact::structure {
@@ -13,7 +12,7 @@ constexpr std::size_t kFewest = 6;
 
 /// By insertion, linear where few have moved, as long as that is not more work than a sort is.
 template <class Item, class Before>
-void sort_mostly_sorted(std::vector<Item>& items, const Before& before) {
+void sort_mostly_sorted(std::span<Item> items, const Before& before) {
   std::size_t moves_left = 8 * items.size();
   for (std::size_t i = 1; i < items.size(); ++i) {
     const Item item = items[i];
@@ -27,71 +26,78 @@ void sort_mostly_sorted(std::vector<Item>& items, const Before& before) {
 
 }  // namespace
 
-bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms,
-                      std::span<const Holder> holders, std::size_t pair_count, double least_life) {
-  pairs_.clear();
-  found_ = false;
-  if (acting.size() < kFewest) return false;
-  root_.resize(pair_count);
-  sums_.resize(pair_count);
-  is_more_.resize(pair_count);
-  const auto holders_of = [&](std::uint32_t term) {
-    return holders.subspan(terms[term].first_holder, terms[term].holder_count);
+std::span<const std::uint32_t> RingSearch::find(const TermsInRange& terms, const TermParts& parts,
+                                                bool are_new, double least_life,
+                                                geometry::ThreadPool& pool) {
+  if (are_new) put_in_parts(terms, parts);
+  root_.resize(parts.pair_count());
+  sums_.resize(parts.pair_count());
+  are_more_.resize(parts.count());
+  changed_.resize(static_cast<std::size_t>(pool.thread_count()));
+  pool.for_each_shared(parts.count(), [&](std::size_t part, int worker) {
+    const std::span levels(order_.data() + parts.first(part), parts.places(part).size());
+    are_more_[part] =
+        levels.size() >= kFewest &&
+        is_more(terms, levels, least_life, changed_[static_cast<std::size_t>(worker)]);
+  });
+  found_.clear();
+  for (std::uint32_t part = 0; part < parts.count(); ++part)
+    if (are_more_[part] != 0) found_.push_back(part);
+  return found_;
+}
+
+/// From one step to the next the order by overlap hardly changes: the terms of the last one come
+/// first, so that little is left to sort.
+void RingSearch::put_in_parts(const TermsInRange& terms, const TermParts& parts) {
+  parts_of_terms_.resize(terms.all.size(), TermParts::kNone);
+  next_.clear();
+  for (std::size_t part = 0; part < parts.count(); ++part) {
+    next_.push_back(parts.first(part));
+    for (const std::uint32_t place : parts.places(part))
+      parts_of_terms_[terms.acting[place]] = static_cast<std::int32_t>(part);
+  }
+  last_.swap(order_);
+  order_.resize(terms.acting.size());
+  const auto put = [&](std::uint32_t term) {
+    const std::int32_t part = std::exchange(parts_of_terms_[term], TermParts::kNone);
+    if (part != TermParts::kNone) order_[next_[static_cast<std::size_t>(part)]++].term = term;
   };
-  for (const std::uint32_t term : acting) {
-    if (!terms[term].is_of_cells) continue;
-    const std::uint32_t pair = holders_of(term).front().pair;
+  for (const Level& level : last_)
+    if (level.term < terms.all.size()) put(level.term);
+  std::ranges::for_each(terms.acting, put);
+}
+
+/// @param levels   of one part; sorted here, deepest first
+/// @param changed  room
+bool RingSearch::is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
+                         std::vector<std::uint32_t>& changed) {
+  for (Level& level : levels) {
+    level.overlap = terms.all[level.term].overlap;
+    if (!terms.all[level.term].is_of_cells) continue;
+    const std::uint32_t pair = terms.holders_of(level.term).front().pair;
     root_[pair] = pair;
     sums_[pair] = 0;
-    is_more_[pair] = 0;
-    pairs_.push_back(pair);
   }
-  sort(acting, terms);
-  changed_.clear();
-  double last = 0.0;
-  for (const auto& [overlap, term] : order_) {
-    if (last - overlap > least_life) check_level();
-    last = overlap;
-    const std::uint32_t part = unite(holders_of(term));
-    sums_[part] += terms[term].weight;
-    changed_.push_back(part);
-  }
-  check_level();
-  std::erase_if(pairs_, [this](std::uint32_t pair) { return !found_ || !is_more(part_of(pair)); });
-  std::sort(pairs_.begin(), pairs_.end(), [this](std::uint32_t p, std::uint32_t q) {
-    return std::tuple{part_of(p), p} < std::tuple{part_of(q), q};
-  });
-  return !pairs_.empty();
-}
-
-/// Deepest first. From one step to the next the order hardly changes: the terms of the last one
-/// come first, so that little is left to sort.
-void RingSearch::sort(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms) {
-  is_new_.resize(terms.size());
-  for (const std::uint32_t term : acting) is_new_[term] = 1;
-  std::size_t kept = 0;
-  for (const Level& level : order_) {
-    if (level.term >= terms.size() || is_new_[level.term] == 0) continue;
-    is_new_[level.term] = 0;
-    order_[kept++].term = level.term;
-  }
-  order_.resize(kept);
-  for (const std::uint32_t term : acting) {
-    if (is_new_[term] == 0) continue;
-    is_new_[term] = 0;
-    order_.push_back({0.0, term});
-  }
-  for (Level& level : order_) level.overlap = terms[level.term].overlap;
-  sort_mostly_sorted(order_, [](const Level& p, const Level& q) {
+  sort_mostly_sorted(levels, [](const Level& p, const Level& q) {
     return p.overlap != q.overlap ? p.overlap > q.overlap : p.term < q.term;
   });
+  changed.clear();
+  double last = 0.0;
+  for (const auto& [overlap, term] : levels) {
+    if (last - overlap > least_life && !are_pieces(changed)) return true;
+    last = overlap;
+    const std::uint32_t part = unite(terms.holders_of(term));
+    sums_[part] += terms.all[term].weight;
+    changed.push_back(part);
+  }
+  return !are_pieces(changed);
 }
 
-/// The pairs of cells that have a term are one part from now on. @returns it
+/// The pairs of cells that have a term hang together from now on. @returns the lowest of all these
 std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
-  std::uint32_t part = part_of(holders.front().pair);
+  std::uint32_t part = part_at_level(holders.front().pair);
   for (const Holder& holder : holders.subspan(1)) {
-    const std::uint32_t other = part_of(holder.pair);
+    const std::uint32_t other = part_at_level(holder.pair);
     if (other == part) continue;
     const auto [low, high] = std::minmax(part, other);
     // Shorter ways for the next time.
@@ -100,20 +106,17 @@ std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
     }
     root_[high] = low;
     sums_[low] += sums_[high];
-    is_more_[low] = is_more_[low] != 0 || is_more_[high] != 0;
     part = low;
   }
   return part;
 }
 
-void RingSearch::check_level() noexcept {
-  for (const std::uint32_t pair : changed_) {
-    const std::uint32_t part = part_of(pair);
-    if (sums_[part] == 1) continue;
-    is_more_[part] = 1;
-    found_ = true;
-  }
-  changed_.clear();
+/// At a level. @param changed  since the last one; empty afterwards
+bool RingSearch::are_pieces(std::vector<std::uint32_t>& changed) const noexcept {
+  const bool are = std::ranges::all_of(
+      changed, [this](std::uint32_t pair) { return sums_[part_at_level(pair)] == 1; });
+  changed.clear();
+  return are;
 }
 
 }  // namespace plekton::contact::structure

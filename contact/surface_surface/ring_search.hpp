@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/surface_surface/pair_term.hpp"
-#include "contact/surface_surface/wrapped_joints.hpp"
+#include "contact/surface_surface/term_parts.hpp"
+#include "geometry/base/thread_pool.hpp"
 
 #include <cstdint>
 #include <span>
@@ -18,47 +18,45 @@ namespace plekton::contact::structure {
 /// count for 1 more, but a void that begins before a hole does is seen as well.
 class RingSearch {
  public:
-  /// Almost linear in the terms in range, but for their order by overlap. Keeps its working space,
-  /// so that a warm call does not allocate.
-  /// @param acting      terms in range, ascending
-  /// @param holders     of all terms
-  /// @param pair_count  of all pairs of cells
+  /// Almost linear in the terms in range, but for their order by overlap; each part by itself. Keeps
+  /// its working space, so that a warm call does not allocate.
+  /// @param parts       of the terms
+  /// @param are_new     whether terms or parts are others than those of the last call
   /// @param least_life  m: terms whose overlaps differ by no more are on one level. Rounding makes
   ///                    the order of features that stand at one place, and a hole that is there
   ///                    over no more than rounding gives back nothing (RingWeights::kLeastLife)
-  /// @returns whether there is such a part
-  bool find(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms,
-            std::span<const Holder> holders, std::size_t pair_count, double least_life);
-
-  /// Pairs of cells of such parts, part after part: of one ascending, the lowest first. Of the last
-  /// find(), as the next.
-  std::span<const std::uint32_t> pairs() const noexcept { return pairs_; }
-  /// The lowest pair of the part that one is in.
-  std::uint32_t part_of(std::uint32_t pair) const noexcept {
-    while (root_[pair] != pair) pair = root_[pair];
-    return pair;
-  }
-  bool is_more(std::uint32_t part) const noexcept { return is_more_[part] != 0; }
+  /// @returns such parts, ascending
+  std::span<const std::uint32_t> find(const TermsInRange& terms, const TermParts& parts,
+                                      bool are_new, double least_life, geometry::ThreadPool& pool);
 
  private:
-  void sort(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms);
-  std::uint32_t unite(std::span<const Holder> holders) noexcept;
-  void check_level() noexcept;
-
   /// A term in range, side by side with what it is sorted by.
   struct Level {
     double overlap;
     std::uint32_t term;
   };
 
-  std::vector<Level> order_;            ///< terms in range, deepest first
-  std::vector<char> is_new_;            ///< by term; all 0 between calls
-  std::vector<std::uint32_t> root_;     ///< by pair: the lowest of its part, or one on the way
-  std::vector<std::int32_t> sums_;      ///< by part: Euler's number
-  std::vector<char> is_more_;           ///< by part: than a piece, at some level
-  std::vector<std::uint32_t> changed_;  ///< pairs, one of each part that changes at a level
-  std::vector<std::uint32_t> pairs_;
-  bool found_ = false;
+  void put_in_parts(const TermsInRange& terms, const TermParts& parts);
+  bool is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
+               std::vector<std::uint32_t>& changed);
+  std::uint32_t part_at_level(std::uint32_t pair) const noexcept {
+    while (root_[pair] != pair) pair = root_[pair];
+    return pair;
+  }
+  std::uint32_t unite(std::span<const Holder> holders) noexcept;
+  bool are_pieces(std::vector<std::uint32_t>& changed) const noexcept;
+
+  std::vector<Level> order_;                  ///< terms in range, part by part, each deepest first
+  std::vector<Level> last_;                   ///< of the parts before
+  std::vector<std::int32_t> parts_of_terms_;  ///< by term; all TermParts::kNone between calls
+  std::vector<std::size_t> next_;             ///< by part: where its next term goes
+  std::vector<std::uint32_t>
+      root_;  ///< by pair: the lowest it hangs together with, or one on the way
+  std::vector<std::int32_t> sums_;  ///< by such a lowest pair: Euler's number
+  /// By worker: pairs, one of each piece that changes at a level.
+  std::vector<std::vector<std::uint32_t>> changed_;
+  std::vector<char> are_more_;  ///< by part
+  std::vector<std::uint32_t> found_;
 };
 
 }  // namespace plekton::contact::structure

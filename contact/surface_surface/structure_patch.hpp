@@ -75,6 +75,7 @@ struct StructurePatch {
   /// On either side, the features of the term that overlaps most, and how far (m).
   std::array<geometry::FeatureNodes, 2> deepest{};
   double deepest_overlap = -1.0;
+  std::size_t crossings = 0;  ///< pairs of cells whose cores touch or cross
 
   /// No forces yet; the nodes stay.
   void reset() {
@@ -92,6 +93,7 @@ struct StructurePatch {
     other_force = Vec3::Zero();
     moment = Vec3::Zero();
     deepest_overlap = -1.0;
+    crossings = 0;
   }
 
   bool pushes() const noexcept { return normal_force > 0.0; }

@@ -115,44 +115,24 @@ void StructurePatches::find(const Motion& motion, geometry::ThreadPool& pool) {
                          patch.id, patch.normal_force, patch.is_torn});
   }
   if (terms_.acting_changed()) {
-    join_pairs();
+    take_parts();
     find_places();
   }
   find_successors();
-  add_up_patches(motion.position);
+  add_up_patches(motion.position, pool);
 }
 
-/// Pairs of cells hang together where they share a feature that acts.
-void StructurePatches::join_pairs() {
-  for (PairOfCells& pair : pairs_) {
+/// Each part is a patch, with its number.
+void StructurePatches::take_parts() {
+  const TermParts& parts = terms_.parts();
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    PairOfCells& pair = pairs_[i];
     pair.old_patch = pair.patch;
     pair.was_turned = pair.is_turned;
-    pair.patch = -1;
+    pair.patch = parts.part_of(i);
+    if (pair.patch >= 0) pair.is_turned = parts.is_turned(i);
   }
-  connected_.reset(pairs_.size());
-  constexpr std::int32_t kTouches = 0;
-  for (const std::uint32_t acting : terms_.acting()) {
-    const auto holders = terms_.holders(terms_[acting]);
-    const Holder& first = holders.front();
-    for (const Holder& holder : holders) {
-      connected_.unite(first.pair, holder.pair, first.is_turned != holder.is_turned);
-      pairs_[holder.pair].patch = kTouches;
-    }
-  }
-  number_patches();
-}
-
-void StructurePatches::number_patches() {
-  std::size_t count = 0;
-  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
-    if (pairs_[i].patch < 0) continue;
-    const auto place = connected_.find(i);
-    // The root is the lowest of its patch: it comes first.
-    pairs_[i].patch =
-        place.root == i ? static_cast<std::int32_t>(count++) : pairs_[place.root].patch;
-    pairs_[i].is_turned = place.is_turned;
-  }
-  patches_.resize(count);
+  patches_.resize(parts.count());
 }
 
 void StructurePatches::find_places() {
@@ -187,35 +167,44 @@ void StructurePatches::find_places() {
   }
 }
 
-void StructurePatches::add_up_patches(Positions x) {
+void StructurePatches::add_up_patches(Positions x, geometry::ThreadPool& pool) {
+  energies_.resize(patches_.size());
+  pool.for_each_shared(patches_.size(), [&](std::size_t i, int) { add_up_patch(i, x); });
   largest_overlap_ratio_ = 0.0;
   crossings_ = 0;
-  for (StructurePatch& patch : patches_) patch.reset();
-  find_energies();
-  for (std::size_t i = 0; i < patches_.size(); ++i) patches_[i].energy = energies_[i].value();
-  for (std::size_t i = 0; i < places_.size(); ++i) add_up_term(terms_.acting()[i], places_[i], x);
-  for (StructurePatch& patch : patches_) patch.find_totals(structure_pair_of(patch), x);
+  for (const StructurePatch& patch : patches_) {
+    const StructurePair& bodies = structure_pair_of(patch);
+    const double radius = std::min(bodies.radius_first, bodies.radius_second);
+    largest_overlap_ratio_ = std::max(largest_overlap_ratio_, patch.deepest_overlap / radius);
+    crossings_ += patch.crossings;
+  }
   for (const PatchSuccessor& successor : successors_)
     patches_[successor.patch].is_torn |= previous_[successor.old_patch].is_torn;
 }
 
-/// Of the patches as they hang together now.
-void StructurePatches::find_energies() {
-  energies_.assign(patches_.size(), {});
-  for (const std::uint32_t acting : terms_.acting()) {
-    const PairTerm& term = terms_[acting];
-    const Holder& holder = terms_.holders(term).front();
-    energies_[static_cast<std::size_t>(pairs_[holder.pair].patch)].add(acting, term);
+void StructurePatches::add_up_patch(std::size_t i, Positions x) {
+  StructurePatch& patch = patches_[i];
+  patch.reset();
+  energies_[i] = energy_of(i);
+  patch.energy = energies_[i].value();
+  for (const std::uint32_t place : terms_.parts().places(i))
+    add_up_term(terms_.acting()[place], places_[place], x);
+  patch.find_totals(structure_pair_of(patch), x);
+}
+
+PatchEnergy StructurePatches::energy_of(std::size_t patch) const noexcept {
+  PatchEnergy energy;
+  for (const std::uint32_t place : terms_.parts().places(patch)) {
+    const std::uint32_t acting = terms_.acting()[place];
+    energy.add(acting, terms_[acting]);
   }
+  return energy;
 }
 
 void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& places, Positions x) {
   const PairTerm& term = terms_[acting];
-  const StructurePair& structure_pair = structure_pairs_[term.spring];
-  const double radius = std::min(structure_pair.radius_first, structure_pair.radius_second);
-  largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
-  crossings_ += term.is_of_cells && term.meets ? 1 : 0;
   StructurePatch& patch = patches_[places.patch];
+  patch.crossings += term.is_of_cells && term.meets ? 1 : 0;
   if (term.overlap > patch.deepest_overlap) {
     patch.deepest_overlap = term.overlap;
     patch.deepest = {places.is_turned ? term.b : term.a, places.is_turned ? term.a : term.b};
@@ -395,13 +384,11 @@ double StructurePatches::normal_energy(const geometry::Surface& surface, const M
   std::vector<geometry::CellPair> listed;
   for (const PairOfCells& pair : pairs_) listed.push_back(pair.cells);
   StructurePatches there(surface);
-  there.pairs_ = pairs_;
   there.terms_.rebuild(listed);
   there.terms_.evaluate(springs_, at, pool);
-  there.join_pairs();
-  there.find_energies();
   double energy = 0.0;
-  for (const PatchEnergy& of : there.energies_) energy += of.value();
+  for (std::size_t part = 0; part < there.terms_.parts().count(); ++part)
+    energy += there.energy_of(part).value();
   for (const std::uint32_t acting : there.terms_.acting())
     if (const PairForces* of = there.terms_.attraction(acting)) energy += of->energy;
   return energy;

@@ -6,7 +6,6 @@
 #include "contact/surface_surface/pair_terms.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/surface_surface/structure_probe.hpp"
-#include "contact/surface_surface/touching_patches.hpp"
 #include "contact/tracking/energy_loss.hpp"
 #include "geometry/base/function_ref.hpp"
 #include "geometry/neighbor/cell_neighbours.hpp"
@@ -189,12 +188,13 @@ class StructurePatches {
   void hand_to_sides(const PairOfCells& pair,
                      const std::array<geometry::FeatureNodes, 2>& witness_features,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
-  void join_pairs();
-  void number_patches();
+  void take_parts();
   void find_places();
   void find_successors();
-  void add_up_patches(Positions x);
-  void find_energies();
+  void add_up_patches(Positions x, geometry::ThreadPool& pool);
+  void add_up_patch(std::size_t patch, Positions x);
+  /// Of the terms as they hang together now.
+  PatchEnergy energy_of(std::size_t patch) const noexcept;
   void add_up_term(std::uint32_t acting, const TermPlaces& places, Positions x);
   void hand_on_history(const Predecessor& old, std::span<const PatchSuccessor> successors,
                        const Motion& motion, double dt);
@@ -208,7 +208,6 @@ class StructurePatches {
   bool glues_ = false;
   PairTerms terms_;
   std::vector<TermPlaces> places_;
-  TouchingPatches connected_;
   std::vector<StructurePatch> patches_;
   std::vector<PatchEnergy> energies_;  ///< of the patches
   std::vector<double> counts_;         ///< by structure pair, in the last step of the law

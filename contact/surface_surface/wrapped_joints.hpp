@@ -11,12 +11,6 @@
 
 namespace plekton::contact::structure {
 
-/// A pair of cells that has the features of a term.
-struct Holder {
-  std::uint32_t pair;
-  bool is_turned;  ///< feature a belongs to its second cell
-};
-
 /// The joints of bars among the terms of a list of pairs, and what wraps give back at them
 /// (contact/counting/wrap.hpp): to the terms themselves, and to the other ends of the bars.
 ///

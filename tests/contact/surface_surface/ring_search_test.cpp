@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <vector>
 
 namespace plekton::contact::structure::ring_search_test {
 namespace {
@@ -38,42 +38,75 @@ struct Row {
   }
 };
 
-TEST(RingSearch, FindsNothingWherePiecesMerge) {
-  Row row(0, 5, false);
-  RingSearch search;
-  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 5, kLeastLife));
+class RingSearchTest : public ::testing::Test {
+ protected:
+  /// Lowest pair of each part that is found.
+  std::vector<std::uint32_t> find(const Row& row, std::uint32_t pair_count, int threads = 1) {
+    geometry::ThreadPool pool(threads);
+    const TermsInRange terms{row.acting, row.terms, row.holders};
+    parts_.find(terms, pair_count);
+    std::vector<std::uint32_t> lowest;
+    for (const std::uint32_t part : search_.find(terms, parts_, true, kLeastLife, pool)) {
+      std::uint32_t pair = 0;
+      while (parts_.part_of(pair) != static_cast<std::int32_t>(part)) ++pair;
+      lowest.push_back(pair);
+    }
+    return lowest;
+  }
+
+ private:
+  TermParts parts_;
+  RingSearch search_;
+};
+using Lowest = std::vector<std::uint32_t>;
+
+TEST_F(RingSearchTest, FindsNothingWherePiecesMerge) {
+  EXPECT_EQ(find(Row(0, 5, false), 5), Lowest());
 }
 
-TEST(RingSearch, FindsThePartThatClosesARing) {
+TEST_F(RingSearchTest, FindsThePartThatClosesARing) {
   Row row(0, 5, false);
   row.grow(5, 4, true);
-  RingSearch search;
-  ASSERT_TRUE(search.find(row.acting, row.terms, row.holders, 9, kLeastLife));
-  EXPECT_EQ(std::vector(search.pairs().begin(), search.pairs().end()),
-            (std::vector<std::uint32_t>{5, 6, 7, 8}));
-  EXPECT_TRUE(search.is_more(search.part_of(7)));
-  EXPECT_FALSE(search.is_more(search.part_of(2)));
+  EXPECT_EQ(find(row, 9), Lowest{5});
 }
 
-TEST(RingSearch, FindsARingThatIsFilledAtAHigherLevel) {
+TEST_F(RingSearchTest, FindsARingThatIsFilledAtAHigherLevel) {
   Row row(0, 4, true);
   row.add(0.05, 1, {0, 1, 2, 3});
-  RingSearch search;
-  EXPECT_TRUE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
+  EXPECT_EQ(find(row, 4), Lowest{0});
 }
 
-TEST(RingSearch, FindsARingThatIsFilledALittleHigher) {
+TEST_F(RingSearchTest, FindsARingThatIsFilledALittleHigher) {
   Row row(0, 4, true);
   row.add(0.1 - 1e-14, 1, {0, 1, 2, 3});
-  RingSearch search;
-  EXPECT_TRUE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
+  EXPECT_EQ(find(row, 4), Lowest{0});
 }
 
-TEST(RingSearch, TakesWhatRoundingTearsApartAsOneLevel) {
+TEST_F(RingSearchTest, TakesWhatRoundingTearsApartAsOneLevel) {
   Row row(0, 4, true);
   row.add(0.1 * (1.0 - 1e-15), 1, {0, 1, 2, 3});
-  RingSearch search;
-  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
+  EXPECT_EQ(find(row, 4), Lowest());
+}
+
+/// So it is not on what else there is that the levels of a part depend.
+TEST_F(RingSearchTest, TakesNoLevelsOfAnotherPartForThoseOfThisOne) {
+  Row row(0, 4, true);
+  row.add(0.1 - 1.8e-15, 1, {0, 1, 2, 3});
+  ASSERT_EQ(find(row, 6), Lowest{0});
+  row.grow(4, 2, false);
+  row.terms.back().overlap = 0.1 - 0.9e-15;  // within a level of both
+  EXPECT_EQ(find(row, 6), Lowest{0});
+}
+
+TEST_F(RingSearchTest, FindsTheSameOfTermsInAnyOrderByAnyNumberOfThreads) {
+  Row row(0, 6, true);
+  for (std::uint32_t part = 1; part < 40; ++part) row.grow(6 * part, 6, part % 3 == 0);
+  Lowest expected;
+  for (std::uint32_t part = 0; part < 40; part += 3) expected.push_back(6 * part);
+  EXPECT_EQ(find(row, 240), expected);
+  for (PairTerm& term : row.terms)
+    if (!term.is_of_cells) term.overlap = 0.25 - term.overlap;  // other terms join first
+  EXPECT_EQ(find(row, 240, 4), expected);
 }
 
 }  // namespace
