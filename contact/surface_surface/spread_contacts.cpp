@@ -16,33 +16,54 @@ void SpreadContacts::follow_list(const StructurePatches& patches) noexcept {
 
 // Where they press.
 
-void SpreadContacts::find(StructurePatches& patches, Positions x) {
+void SpreadContacts::find(StructurePatches& patches, Positions x, geometry::ThreadPool& pool) {
   share_pushes(patches);
   take_bars_from_patches(patches);
   previous_.swap(contacts_);
-  contacts_.clear();
   const PairTerms& terms = patches.terms();
-  for (std::size_t i = 0; i < patches.places().size(); ++i) {
-    const std::uint32_t acting = terms.acting()[i];
-    const PairTerm& term = terms[acting];
-    if (!term.is_of_cells) continue;
-    SpreadContact spread;
-    spread.pair = terms.holders(term).front().pair;
-    spread.patch = patches.places()[i].patch;
-    spread.is_turned = patches.places()[i].is_turned;
-    spread.structure_pair = term.spring;
+  of_cells_.clear();
+  for (std::uint32_t i = 0; i < patches.places().size(); ++i)
+    if (terms[terms.acting()[i]].is_of_cells) of_cells_.push_back(i);
+  contacts_.resize(of_cells_.size());
+  presses_.resize(of_cells_.size());
+  pool.for_each_shared(of_cells_.size(), [&](std::size_t i, int) {
+    presses_[i] = locate(patches, of_cells_[i], contacts_[i], x);
+  });
+  take_from_patches(patches);
+  bound_by_patches(patches);
+}
+
+/// @param place  of a term in range of two cells
+/// @returns whether it presses by its extent or has a bar in it
+bool SpreadContacts::locate(const StructurePatches& patches, std::uint32_t place,
+                            SpreadContact& spread, Positions x) const {
+  const PairTerms& terms = patches.terms();
+  const std::uint32_t acting = terms.acting()[place];
+  const PairTerm& term = terms[acting];
+  spread = {};
+  spread.pair = terms.holders(term).front().pair;
+  spread.patch = patches.places()[place].patch;
+  spread.is_turned = patches.places()[place].is_turned;
+  spread.structure_pair = term.spring;
+  if (const PairForces* const extent = terms.extent(acting))
+    return spread.locate(term, *extent, patches.structure_pairs()[term.spring], x);
+  return locate_bar(patches, term, spread, x);
+}
+
+/// Keeps those that press. What facets carry by their extent no patch carries.
+void SpreadContacts::take_from_patches(StructurePatches& patches) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (presses_[i] == 0) continue;
+    if (kept != i) contacts_[kept] = contacts_[i];
+    const SpreadContact& spread = contacts_[kept++];
     StructurePatch& patch = patches.patches()[spread.patch];
-    if (const PairForces* const extent = terms.extent(acting)) {
-      if (!spread.locate(term, *extent, patches.structure_pairs()[term.spring], x)) continue;
-      if (patch.pushes()) patch.point_part -= spread.normal_force / patch.normal_force;
-    } else if (!locate_bar(patches, term, spread, x)) {
-      continue;
-    }
-    contacts_.push_back(spread);
+    if (!spread.is_of_bar && patch.pushes())
+      patch.point_part -= spread.normal_force / patch.normal_force;
   }
+  contacts_.resize(kept);
   for (StructurePatch& patch : patches.patches())
     patch.point_part = std::clamp(patch.point_part, 0.0, 1.0);
-  bound_by_patches(patches);
 }
 
 /// Where a patch pushes as a part of one pair of cells, what its terms press with does not act:

@@ -29,7 +29,7 @@ class SpreadContacts {
   void follow_list(const StructurePatches& patches) noexcept;
 
   /// Finds what presses by its extent or has a bar in it, and takes that from the patches.
-  void find(StructurePatches& patches, Positions x);
+  void find(StructurePatches& patches, Positions x, geometry::ThreadPool& pool);
 
   /// Hands the histories of the last step over: to the same pairs, and, of bars, what these count
   /// for less to those beside them that come to count for more, so that a contact that moves over a
@@ -97,6 +97,9 @@ class SpreadContacts {
 
   void share_pushes(const StructurePatches& patches);
   void take_bars_from_patches(StructurePatches& patches) const;
+  bool locate(const StructurePatches& patches, std::uint32_t place, SpreadContact& spread,
+              Positions x) const;
+  void take_from_patches(StructurePatches& patches);
   bool locate_bar(const StructurePatches& patches, const PairTerm& term, SpreadContact& spread,
                   Positions x) const;
   void bound_by_patches(const StructurePatches& patches);
@@ -111,10 +114,12 @@ class SpreadContacts {
 
   std::vector<SpreadContact> contacts_;  ///< by term
   std::vector<SpreadContact> previous_;
-  std::vector<double> bar_push_;    ///< N, by pair of cells
-  std::vector<Pressing> pressing_;  ///< by patch
-  std::vector<double> pressed_;     ///< N, by patch, of all its spread contacts
-  std::vector<std::int32_t> at_;    ///< by pair of cells; -1: none
+  std::vector<std::uint32_t> of_cells_;  ///< places of terms in range of two cells
+  std::vector<char> presses_;            ///< by these
+  std::vector<double> bar_push_;         ///< N, by pair of cells
+  std::vector<Pressing> pressing_;       ///< by patch
+  std::vector<double> pressed_;          ///< N, by patch, of all its spread contacts
+  std::vector<std::int32_t> at_;         ///< by pair of cells; -1: none
   std::vector<Transfer> transfers_;
   std::vector<char> goes_on_;  ///< by spread contact of the last step: its pair presses still
   /// Of bars: patch and place of spread contacts.

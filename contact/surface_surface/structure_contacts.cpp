@@ -41,7 +41,7 @@ EnergyLoss StructureContacts::advance(const Motion& motion, double dt, geometry:
   if (patches_.empty() && bonds_.empty()) return {};
   bonds_.drop_broken(patches_);
   patches_.find(motion, pool);
-  spread_.find(patches_, motion.position);
+  spread_.find(patches_, motion.position, pool);
   EnergyLoss loss;
   loss.tracking = bonds_.find(patches_, motion, pool);
   loss += patches_.transfer(motion, dt);

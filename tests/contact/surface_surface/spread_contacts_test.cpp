@@ -226,7 +226,7 @@ class HandedOver {
     counts_.clear();
     for (const auto& patch : patches_->patches()) counts_.push_back(patch.point_count());
     patches_->find(still, pool_);
-    spread_.find(*patches_, x_);
+    spread_.find(*patches_, x_, pool_);
     loss += patches_->transfer(still, 0.0);
     loss += spread_.carry(*patches_, still, 0.0);
     return loss;

@@ -95,5 +95,54 @@ TEST(ProductFeatures, WeighTheEulerNumberOfAnySetOfProducts) {
   }
 }
 
+/// Two grids of n x n squares.
+Surface two_grids(int n) {
+  std::vector<Facet> facets;
+  const auto add_grid = [&](int first) {
+    const auto at = [&](int i, int k) { return node(first + i * (n + 1) + k); };
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < n; ++k) {
+        facets.push_back({{at(i, k), at(i + 1, k), at(i, k + 1)}, 0.1});
+        facets.push_back({{at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)}, 0.1});
+      }
+    }
+  };
+  const int nodes = (n + 1) * (n + 1);
+  add_grid(0);
+  add_grid(nodes);
+  return {{}, facets, static_cast<std::size_t>(2 * nodes)};
+}
+
+TEST(ProductFeatures, TellWhichPairsOfCellsHaveThem) {
+  constexpr int kSide = 12, kFacets = 2 * kSide * kSide;
+  const Surface surface = two_grids(kSide);
+  std::mt19937 random(9);
+  std::vector<CellPair> pairs = all_pairs(0, kFacets - 1, kFacets, 2 * kFacets - 1);
+  std::erase_if(pairs, [&](const CellPair&) { return random() % 300 != 0; });
+  const ProductFeatures features = product_features(surface, pairs);
+  const auto has = [&](CellId cell, const Feature& feature) {
+    const FeatureNodes nodes = nodes_of(surface, feature);
+    const auto of_cell = surface.nodes_of(cell);
+    return std::ranges::all_of(
+        nodes, [&](NodeId n) { return std::ranges::find(of_cell, n) != of_cell.end(); });
+  };
+  ASSERT_GT(features.pairs.size(), pairs.size());
+  std::size_t first = 0;
+  int last_dimension = 4;
+  for (const FeaturePair& pair : features.pairs) {
+    std::vector<std::uint32_t> having;
+    for (std::uint32_t i = 0; i < pairs.size(); ++i)
+      if (has(pairs[i].a, pair.a) && has(pairs[i].b, pair.b)) having.push_back(i);
+    ASSERT_EQ(pair.first_holder, first);
+    const auto holders = features.holders.begin() + static_cast<std::ptrdiff_t>(first);
+    EXPECT_EQ(std::vector(holders, holders + pair.holder_count), having);
+    first += pair.holder_count;
+    const int dimension = static_cast<int>(pair.a.kind) + static_cast<int>(pair.b.kind);
+    EXPECT_LE(dimension, last_dimension);
+    last_dimension = dimension;
+  }
+  EXPECT_EQ(first, features.holders.size());
+}
+
 }  // namespace
 }  // namespace plekton::geometry::product_features_test
