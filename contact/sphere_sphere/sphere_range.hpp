@@ -48,6 +48,25 @@ struct alignas(64) SphereWork {
   BlockOutcome<SphereBlocks::kLanes> outcome;
 };
 
+/// Of W pairs side by side, what each does to one of its spheres.
+template <int W>
+class ForcesOfLanes {
+ public:
+  PLEKTON_INLINE ForcesOfLanes(const Vec3Of<Pack<W>>& force,
+                               const Vec3Of<Pack<W>>& torque) noexcept {
+    const Pack<W> none = 0.0;
+    geometry::scatter_things<W, 8>(
+        {force.x, force.y, force.z, torque.x, torque.y, torque.z, none, none},
+        [&](std::size_t k) __attribute__((always_inline)) { return lanes_[k].numbers.data(); });
+  }
+  PLEKTON_INLINE const SphereForce& operator[](std::size_t lane) const noexcept {
+    return lanes_[lane];
+  }
+
+ private:
+  std::array<SphereForce, std::size_t{W}> lanes_;
+};
+
 template <ContactLaw Law>
 class SphereLoop {
  public:
@@ -181,38 +200,42 @@ PLEKTON_INLINE void SphereLoop<Law>::add_outcome(
   select(is_deeper, answer.smaller_radius, its_radius).store(&outcome.radius[lane]);
 }
 
-/// Pairs that do not touch add zeros: cheaper than asking each.
+/// Pairs that do not touch add zeros: cheaper than asking each. (Factors of each lane by itself, as
+/// arms would be if they came after the numbers have changed places, GCC 12 puts together number by
+/// number.)
 template <ContactLaw Law>
 template <int W>
 PLEKTON_INLINE void SphereLoop<Law>::add_forces(
     const SphereBlocks::Pair* pairs, const LaneStepOf<Law, Pack<W>>& answer) const noexcept {
   using Real = Pack<W>;
-  const auto if_touching = [&](const Real& x) __attribute__((always_inline)) {
-    return select(answer.touch > 0.0, x, 0.0);
+  const auto if_touching = [&](const Vec3Of<Real>& v) __attribute__((always_inline)) {
+    const auto touches = answer.touch > 0.0;
+    return Vec3Of<Real>{select(touches, v.x, 0.0), select(touches, v.y, 0.0),
+                        select(touches, v.z, 0.0)};
   };
-  const auto& force = answer.step.force;
-  const auto& cross = answer.step.force_cross_normal;
-  std::array<SphereForce, std::size_t{W}> of_lanes;
-  geometry::scatter_things<W, 8>(
-      {if_touching(force.x), if_touching(force.y), if_touching(force.z), if_touching(cross.x),
-       if_touching(cross.y), if_touching(cross.z), answer.step.arm_a, answer.step.arm_b},
-      [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].numbers.data(); });
+  const auto opposite = [](const Vec3Of<Real>& v) __attribute__((always_inline)) {
+    return Vec3Of<Real>{-v.x, -v.y, -v.z};
+  };
+  const Vec3Of<Real> force = if_touching(answer.step.force);
+  const Vec3Of<Real> cross = if_touching(answer.step.force_cross_normal);
+  const ForcesOfLanes<W> on_a(opposite(force), answer.step.arm_a * cross);
+  const ForcesOfLanes<W> on_b(force, answer.step.arm_b * cross);
+  SphereSum* const sums = work_.sums.data();
   if constexpr (HasMoments<Law>) {
-    const auto& moment = answer.step.moment;
-    std::array<SphereMoment, std::size_t{W}> moments;
+    const Vec3Of<Real> moment = if_touching(answer.step.moment);
     const Real none = 0.0;
-    geometry::scatter_things<W, 8>(
-        {none, none, none, if_touching(moment.x), if_touching(moment.y), if_touching(moment.z),
-         none, none},
-        [&](std::size_t k) __attribute__((always_inline)) { return moments[k].numbers.data(); });
+    const ForcesOfLanes<W> turns_a({none, none, none}, opposite(moment));
+    const ForcesOfLanes<W> turns_b({none, none, none}, moment);
     for (std::size_t k = 0; k < std::size_t{W}; ++k) {
-      add_to_a<W>(work_.sums[pairs[k].a], of_lanes[k], moments[k]);
-      add_to_b<W>(work_.sums[pairs[k].b], of_lanes[k], moments[k]);
+      add_to<W>(sums[pairs[k].a], on_a[k]);
+      add_to<W>(sums[pairs[k].a], turns_a[k]);
+      add_to<W>(sums[pairs[k].b], on_b[k]);
+      add_to<W>(sums[pairs[k].b], turns_b[k]);
     }
   } else {
     for (std::size_t k = 0; k < std::size_t{W}; ++k) {
-      add_to_a<W>(work_.sums[pairs[k].a], of_lanes[k]);
-      add_to_b<W>(work_.sums[pairs[k].b], of_lanes[k]);
+      add_to<W>(sums[pairs[k].a], on_a[k]);
+      add_to<W>(sums[pairs[k].b], on_b[k]);
     }
   }
 }
@@ -263,15 +286,12 @@ void SphereLoop<Law>::add_one(std::size_t lane, const SphereBlocks::Pair& member
     outcome.overlap[lane] = -step.gap;
     outcome.radius[lane] = smaller;
   }
-  const SphereForce force(step.force, step.force_cross_normal, step.arm_a, step.arm_b);
-  if constexpr (HasMoments<Law>) {
-    const SphereMoment moment(step.moment);
-    add_to_a<2>(work_.sums[members.a], force, moment);
-    add_to_b<2>(work_.sums[members.b], force, moment);
-  } else {
-    add_to_a<2>(work_.sums[members.a], force);
-    add_to_b<2>(work_.sums[members.b], force);
-  }
+  SphereSum& a = work_.sums[members.a];
+  SphereSum& b = work_.sums[members.b];
+  add_to<2>(a, {-step.force, step.arm_a * step.force_cross_normal});
+  if constexpr (HasMoments<Law>) add_to<2>(a, {Vec3::Zero(), -step.moment});
+  add_to<2>(b, {step.force, step.arm_b * step.force_cross_normal});
+  if constexpr (HasMoments<Law>) add_to<2>(b, {Vec3::Zero(), step.moment});
 }
 
 /// One step of a range, with the widest vectors there are.
