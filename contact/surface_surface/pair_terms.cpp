@@ -122,11 +122,11 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   });
   list_acting();
   acting_changed_ = terms_are_new_ || acting_ != acted_;
-  terms_are_new_ = false;
   if (acting_changed_) parts_.find(in_range(), term_of_pair_.size());
   give_back_of_rings(springs, motion.position, pool);
   tilt_cells(springs, motion.position, pool);
   joints_.gather(acting_);
+  terms_are_new_ = false;
 }
 
 /// What there is to know of all springs, of which there may be many more than terms.
@@ -448,6 +448,8 @@ void PairTerms::exchange(const geometry::StateArchive& archive) {
   if (is_new) return;
   clearances_.exchange(archive);
   archive.fixed("is_near", is_near_, "pairs of cells");
+  for (std::size_t i = 0; i < is_near_.size(); ++i)
+    archive.require(is_near_[i] == 0 || clearances_.may_be_within(i, 0.0), "is_near");
   std::vector<std::array<std::uint8_t, 2>> corners(is_near_.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const geometry::ClosestPoints& points = proximity_[i].cores.points;

@@ -7,8 +7,9 @@
 namespace plekton::contact::structure {
 namespace {
 
-/// A ring needs three pairs of cells and three terms that join them.
-constexpr std::size_t kFewest = 6;
+/// A ring needs two pairs of cells that are joined twice: of a closed chain of four bars that folds
+/// onto itself, so that its opposite corners meet.
+constexpr std::size_t kFewest = 4;
 
 /// By insertion, linear where few have moved, as long as that is not more work than a sort is.
 template <class Item, class Before>
@@ -33,12 +34,12 @@ std::span<const std::uint32_t> RingSearch::find(const TermsInRange& terms, const
   root_.resize(parts.pair_count());
   sums_.resize(parts.pair_count());
   are_more_.resize(parts.count());
-  changed_.resize(static_cast<std::size_t>(pool.thread_count()));
-  pool.for_each_shared(parts.count(), [&](std::size_t part, int worker) {
-    const std::span levels(order_.data() + parts.first(part), parts.places(part).size());
+  changed_.resize(order_.size());
+  pool.for_each_shared(parts.count(), [&](std::size_t part, int) {
+    const std::size_t first = parts.first(part);
+    const std::span levels(order_.data() + first, parts.places(part).size());
     are_more_[part] =
-        levels.size() >= kFewest &&
-        is_more(terms, levels, least_life, changed_[static_cast<std::size_t>(worker)]);
+        levels.size() >= kFewest && is_more(terms, levels, least_life, changed_.data() + first);
   });
   found_.clear();
   for (std::uint32_t part = 0; part < parts.count(); ++part)
@@ -68,9 +69,9 @@ void RingSearch::put_in_parts(const TermsInRange& terms, const TermParts& parts)
 }
 
 /// @param levels   of one part; sorted here, deepest first
-/// @param changed  room
+/// @param changed  room for as many
 bool RingSearch::is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
-                         std::vector<std::uint32_t>& changed) {
+                         std::uint32_t* changed) {
   for (Level& level : levels) {
     level.overlap = terms.all[level.term].overlap;
     if (!terms.all[level.term].is_of_cells) continue;
@@ -81,16 +82,19 @@ bool RingSearch::is_more(const TermsInRange& terms, std::span<Level> levels, dou
   sort_mostly_sorted(levels, [](const Level& p, const Level& q) {
     return p.overlap != q.overlap ? p.overlap > q.overlap : p.term < q.term;
   });
-  changed.clear();
+  std::size_t count = 0;
   double last = 0.0;
   for (const auto& [overlap, term] : levels) {
-    if (last - overlap > least_life && !are_pieces(changed)) return true;
+    if (last - overlap > least_life) {
+      if (!are_pieces({changed, count})) return true;
+      count = 0;
+    }
     last = overlap;
     const std::uint32_t part = unite(terms.holders_of(term));
     sums_[part] += terms.all[term].weight;
-    changed.push_back(part);
+    changed[count++] = part;
   }
-  return !are_pieces(changed);
+  return !are_pieces({changed, count});
 }
 
 /// The pairs of cells that have a term hang together from now on. @returns the lowest of all these
@@ -111,12 +115,10 @@ std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
   return part;
 }
 
-/// At a level. @param changed  since the last one; empty afterwards
-bool RingSearch::are_pieces(std::vector<std::uint32_t>& changed) const noexcept {
-  const bool are = std::ranges::all_of(
+/// At a level. @param changed  since the last one
+bool RingSearch::are_pieces(std::span<const std::uint32_t> changed) const noexcept {
+  return std::ranges::all_of(
       changed, [this](std::uint32_t pair) { return sums_[part_at_level(pair)] == 1; });
-  changed.clear();
-  return are;
 }
 
 }  // namespace plekton::contact::structure

@@ -38,13 +38,13 @@ class RingSearch {
 
   void put_in_parts(const TermsInRange& terms, const TermParts& parts);
   bool is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
-               std::vector<std::uint32_t>& changed);
+               std::uint32_t* changed);
   std::uint32_t part_at_level(std::uint32_t pair) const noexcept {
     while (root_[pair] != pair) pair = root_[pair];
     return pair;
   }
   std::uint32_t unite(std::span<const Holder> holders) noexcept;
-  bool are_pieces(std::vector<std::uint32_t>& changed) const noexcept;
+  bool are_pieces(std::span<const std::uint32_t> changed) const noexcept;
 
   std::vector<Level> order_;                  ///< terms in range, part by part, each deepest first
   std::vector<Level> last_;                   ///< of the parts before
@@ -53,8 +53,8 @@ class RingSearch {
   std::vector<std::uint32_t>
       root_;  ///< by pair: the lowest it hangs together with, or one on the way
   std::vector<std::int32_t> sums_;  ///< by such a lowest pair: Euler's number
-  /// By worker: pairs, one of each piece that changes at a level.
-  std::vector<std::vector<std::uint32_t>> changed_;
+  /// As order_: pairs, one of each piece that changes at a level.
+  std::vector<std::uint32_t> changed_;
   std::vector<char> are_more_;  ///< by part
   std::vector<std::uint32_t> found_;
 };

@@ -70,6 +70,13 @@ TEST_F(RingSearchTest, FindsThePartThatClosesARing) {
   EXPECT_EQ(find(row, 9), Lowest{5});
 }
 
+/// As of a closed chain of four bars whose opposite corners meet.
+TEST_F(RingSearchTest, FindsTheRingOfTwoPairsThatAreJoinedTwice) {
+  Row row(0, 2, true);
+  ASSERT_EQ(row.acting.size(), 4u);
+  EXPECT_EQ(find(row, 2), Lowest{0});
+}
+
 TEST_F(RingSearchTest, FindsARingThatIsFilledAtAHigherLevel) {
   Row row(0, 4, true);
   row.add(0.05, 1, {0, 1, 2, 3});
