@@ -50,8 +50,8 @@ class RingSearch {
   std::vector<Level> last_;                   ///< of the parts before
   std::vector<std::int32_t> parts_of_terms_;  ///< by term; all TermParts::kNone between calls
   std::vector<std::size_t> next_;             ///< by part: where its next term goes
-  std::vector<std::uint32_t>
-      root_;  ///< by pair: the lowest it hangs together with, or one on the way
+  /// By pair: the lowest that it hangs together with, or one on the way there.
+  std::vector<std::uint32_t> root_;
   std::vector<std::int32_t> sums_;  ///< by such a lowest pair: Euler's number
   /// As order_: pairs, one of each piece that changes at a level.
   std::vector<std::uint32_t> changed_;
