@@ -31,7 +31,8 @@ class SceneContacts final : public Contacts {
 
   /// From here on ranks share the work; to be called before the first step.
   void share_among(geometry::Ranks& ranks) {
-    neighbours_.share_among(ranks);
+    neighbours_.take_share(
+        {static_cast<std::size_t>(ranks.rank()), static_cast<std::size_t>(ranks.count())});
     with_spheres_.share_among(ranks);
   }
   SharedMotion* shared_motion() noexcept override { return with_spheres_.shared_motion(); }

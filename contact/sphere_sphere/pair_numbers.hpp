@@ -3,7 +3,10 @@
 
 #include "geometry/neighbor/broad_phase.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact {
@@ -19,6 +22,18 @@ class PairNumbers {
   /// @param pair  after all that were added before
   void add(const geometry::IndexPair& pair, std::int64_t number) {
     rows_.push_back({pair, number});
+  }
+
+  /// Takes others. @param newer  of a pair that is there already too; in any order
+  void merge(PairNumbers newer) {
+    if (newer.rows_.empty()) return;
+    const auto is_before = [](const Row& a, const Row& b) { return a.pair < b.pair; };
+    std::ranges::sort(newer.rows_, is_before);
+    std::vector<Row> all;
+    std::ranges::merge(newer.rows_, rows_, std::back_inserter(all), is_before);
+    const auto twice = std::ranges::unique(all, {}, &Row::pair);
+    all.erase(twice.begin(), twice.end());
+    rows_ = std::move(all);
   }
 
   /// Looks pairs up one after the other.

@@ -18,7 +18,7 @@ namespace plekton::contact {
 
 /// Which rank computes which blocks of spheres, and what ranks tell each other of them.
 ///
-/// A rank has whole blocks, so no sum is taken in another order than by one process: what a block
+/// A rank has whole blocks, and the pairs in them alone. So no sum is taken in another order than by one process: what a block
 /// adds to spheres of another block goes to the rank that has that one, which adds it in the order
 /// of the blocks as ever. Then all ranks are given the forces on all common spheres
 /// (shared_motion.hpp).
@@ -26,12 +26,21 @@ class SharedBlocks {
  public:
   explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks), motion_(ranks) {}
 
-  /// What a block costs, in pairs: to move a sphere takes about as long as two of them.
-  static std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block);
+  /// Cuts the blocks of a new list, chooses who computes which, and gives each pair to the rank that
+  /// has its block; all pairs to all ranks where there is nothing to share. Owners stay until the
+  /// next list, as nobody else holds the rows; fill() and share_motion() have to follow.
+  /// @param found  some of the pairs, others on each rank
+  /// @returns the pairs of this rank, sorted
+  std::vector<geometry::IndexPair> deal_out(std::span<const geometry::IndexPair> found,
+                                            std::span<const SphereBody> spheres, Positions x,
+                                            SphereBlocks& blocks);
+  /// Fills the blocks of this rank. @param pairs, spheres, x  as they were, kinds as fill() has it
+  void fill(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
+            std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool, Positions x,
+            SphereBlocks& blocks);
+  /// The rank to which a pair that touches goes, whether it is on the list or not.
+  int rank_of(const geometry::IndexPair& pair, const SphereBlocks& blocks) const noexcept;
 
-  /// Takes the blocks of a new list. Owners stay with them until the next one, as nobody else holds
-  /// their rows; share_motion() has to follow.
-  void assign(const SphereBlocks& blocks);
   /// @param blocks  the same
   /// @param met     as SharedMotion::assign() has it
   void share_motion(const SphereBlocks& blocks, std::span<const NodeId> met);
@@ -41,7 +50,7 @@ class SharedBlocks {
   /// Whether there is anything to share: one block, or one rank, needs no message. Each rank then
   /// computes all.
   bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
-  /// The rank that holds the rows of each block; empty where each has all.
+  /// The rank that has each block; empty where each has all.
   std::span<const int> holders() const noexcept {
     return is_worth_it() ? std::span<const int>(owners_) : std::span<const int>();
   }
@@ -70,7 +79,9 @@ class SharedBlocks {
   /// What is told of a sphere: force and torque.
   static constexpr std::size_t kSphereBytes = 6 * sizeof(double);
 
-  void find_messages(const SphereBlocks& blocks);
+  std::vector<geometry::IndexPair> cut_and_deal_out(std::span<const geometry::IndexPair> found,
+                                                    SphereBlocks& blocks);
+  void find_messages(SphereBlocks& blocks);
   void find_sizes_of_gather();
 
   /// Ghosts whose sums go to a rank or come from one, in the order of ranks.

@@ -87,12 +87,13 @@ void SharedMotion::find_owners(const SphereBlocks& blocks, std::span<const int> 
   private_to_.assign(count, {});
   for (std::size_t k = 0; k < owners.size(); ++k) {
     const auto rank = static_cast<std::size_t>(owners[k]);
-    for (const SphereBlocks::Member& sphere : blocks.owned(blocks.blocks()[k])) {
-      if (is_common[index_of(sphere.node)] != 0) {
-        common_in_blocks_[rank].push_back(sphere.node);
+    for (const std::int32_t sphere : blocks.spheres_of(k)) {
+      const NodeId node = blocks.node_of(sphere);
+      if (is_common[index_of(node)] != 0) {
+        common_in_blocks_[rank].push_back(node);
       } else {
-        private_to_[rank].push_back(sphere.node);
-        owners_[index_of(sphere.node)] = owners[k];
+        private_to_[rank].push_back(node);
+        owners_[index_of(node)] = owners[k];
       }
     }
   }
@@ -100,31 +101,32 @@ void SharedMotion::find_owners(const SphereBlocks& blocks, std::span<const int> 
   for (auto& nodes : private_to_) std::sort(nodes.begin(), nodes.end());
 }
 
+/// Each rank tells of which nodes it has to be told.
 void SharedMotion::find_ghosts(const SphereBlocks& blocks, std::span<const int> owners) {
-  const auto count = static_cast<std::size_t>(ranks_->count());
   const int self = ranks_->rank();
-  std::vector<std::vector<NodeId>> to(count), from(count);
-  for (std::size_t k = 0; k < owners.size(); ++k) {
-    const SphereBlocks::Block& block = blocks.blocks()[k];
-    for (const SphereBlocks::Member& ghost : blocks.ghosts(block)) {
-      const std::int32_t owner = owners_[index_of(ghost.node)];
-      if (owner == kCommon || owner == owners[k]) continue;
-      if (owner == self) to[static_cast<std::size_t>(owners[k])].push_back(ghost.node);
-      if (owners[k] == self) from[static_cast<std::size_t>(owner)].push_back(ghost.node);
-    }
+  std::vector<std::vector<NodeId>> from(static_cast<std::size_t>(ranks_->count()));
+  blocks.for_each_ghost_here([&](const SphereBlocks::GhostOf& ghost, std::uint32_t) {
+    if (owners[ghost.block] != self) return;
+    const NodeId node = blocks.node_of(ghost.sphere);
+    const std::int32_t owner = owner_of(node);
+    if (owner != kCommon && owner != self) from[static_cast<std::size_t>(owner)].push_back(node);
+  });
+  std::vector<std::uint64_t> asked;  // nodes, as what is told has 8 bytes
+  received_ = {};
+  for (std::vector<NodeId>& nodes : from) {
+    sort_and_unite(nodes);
+    for (const NodeId node : nodes) asked.push_back(index_of(node));
+    received_.nodes.insert(received_.nodes.end(), nodes.begin(), nodes.end());
+    received_.sizes.push_back(nodes.size() * kGhostBytes);
   }
-  const auto set = [](Messages& messages, std::vector<std::vector<NodeId>>& of_ranks) {
-    messages.nodes.clear();
-    messages.sizes.clear();
-    for (std::vector<NodeId>& nodes : of_ranks) {
-      sort_and_unite(nodes);
-      messages.nodes.insert(messages.nodes.end(), nodes.begin(), nodes.end());
-      messages.sizes.push_back(nodes.size() * kGhostBytes);
-    }
-    messages.bytes.resize(messages.nodes.size() * kGhostBytes);
-  };
-  set(sent_, to);
-  set(received_, from);
+  const auto to = geometry::dealt_out(
+      *ranks_, std::span<const std::uint64_t>(asked),
+      [&](std::uint64_t node) { return owner_of(geometry::id_at<NodeId>(node)); });
+  sent_ = {};
+  for (const std::uint64_t node : to.things) sent_.nodes.push_back(geometry::id_at<NodeId>(node));
+  for (const std::size_t count : to.counts) sent_.sizes.push_back(count * kGhostBytes);
+  for (Messages* const messages : {&sent_, &received_})
+    messages->bytes.resize(messages->nodes.size() * kGhostBytes);
 }
 
 void SharedMotion::tell_neighbours(const NodesInMotion& nodes) {

@@ -21,13 +21,6 @@ constexpr std::size_t kPairsPerSphere = 2;
 /// Neighbours stay near each other in the order while many lists are made.
 constexpr int kListsPerOrder = 16;
 
-std::size_t block_count(std::size_t spheres) {
-  if (spheres < 2 * kUsualSpheres) return 1;
-  const std::size_t groups =
-      (spheres + kUsualSpheres * kBlocksAtOnce - 1) / (kUsualSpheres * kBlocksAtOnce);
-  return groups * kBlocksAtOnce;
-}
-
 template <class Number>
 void set_all(std::vector<Number>& list, std::size_t count, Number value) {
   make_room(list, count);
@@ -39,13 +32,25 @@ void set_all(std::vector<Number>& list, std::size_t count, Number value) {
 void SphereBlocks::assign(std::span<const geometry::IndexPair> pairs,
                           std::span<const SphereBody> spheres, std::span<const std::uint8_t> kinds,
                           geometry::ThreadPool& pool, Positions x) {
-  std::int32_t last = -1;
-  for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
-  order_spheres(spheres.first(static_cast<std::size_t>(last + 1)), x);
-  sort_pairs(pairs, pool);
-  find_touching(pairs, spheres, x, pool);
+  order(spheres.first(spheres_in(pairs)), x);
+  cut(find_cuts(pairs, {0, order_.size(), 0, pairs.size()}));
+  fill_counted(pairs, spheres, kinds, {}, pool, x);
+  place_ghosts([this](const auto& visit) { for_each_ghost_here(visit); });
+}
 
-  cut_order();
+void SphereBlocks::fill(std::span<const geometry::IndexPair> pairs,
+                        std::span<const SphereBody> spheres, std::span<const std::uint8_t> kinds,
+                        const BlockOwners& owners, geometry::ThreadPool& pool, Positions x) {
+  count_pairs(pairs);
+  fill_counted(pairs, spheres, kinds, owners, pool, x);
+}
+
+void SphereBlocks::fill_counted(std::span<const geometry::IndexPair> pairs,
+                                std::span<const SphereBody> spheres,
+                                std::span<const std::uint8_t> kinds, const BlockOwners& owners,
+                                geometry::ThreadPool& pool, Positions x) {
+  sort_counted(pairs, pool);
+  find_touching(pairs, spheres, x, pool);
   const std::size_t count = first_places_.size() - 1;
   set_all(member_of_, order_.size(), 0U);
   set_all(slots_, pairs.size(), 0U);
@@ -60,14 +65,19 @@ void SphereBlocks::assign(std::span<const geometry::IndexPair> pairs,
   spheres_.clear();
   pairs_.clear();
   largest_member_count_ = 0;
-  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, spheres, kinds);
-  find_ghosts();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (owners.are_here(k))
+      fill_block(k, pairs, spheres, kinds);
+    else
+      add_no_block();
+  }
+  ghost_count_ = blocks_.empty() ? 0 : blocks_.back().first_ghost + blocks_.back().ghosts();
   find_other_nodes(x.size());
 }
 
 /// Whoever takes part in no pair of a new list may be in it and did in an older one: only a change
 /// of their number, or age, asks for a new order.
-void SphereBlocks::order_spheres(std::span<const SphereBody> spheres, Positions x) {
+void SphereBlocks::order(std::span<const SphereBody> spheres, Positions x) {
   nodes_.clear();
   for (const SphereBody& sphere : spheres) nodes_.push_back(sphere.node);
   if (order_.size() == spheres.size() && ++lists_in_order_ < kListsPerOrder) return;
@@ -99,35 +109,65 @@ void SphereBlocks::exchange_order(const geometry::StateArchive& archive) {
   --lists_in_order_;  // the list that is assigned next has been counted
 }
 
+std::size_t SphereBlocks::block_count(std::size_t spheres) noexcept {
+  if (spheres < 2 * kUsualSpheres) return 1;
+  const std::size_t groups =
+      (spheres + kUsualSpheres * kBlocksAtOnce - 1) / (kUsualSpheres * kBlocksAtOnce);
+  return groups * kBlocksAtOnce;
+}
+
 /// Into blocks that take equally long. Pairs belong to their first spheres, so the first blocks
 /// would have some percent more of them than the last if all had the same number of spheres.
-void SphereBlocks::cut_order() {
+std::span<const SphereBlocks::Cut> SphereBlocks::find_cuts(
+    std::span<const geometry::IndexPair> pairs, const PartOfOrder& part) {
+  count_pairs(pairs);
   const std::size_t spheres = order_.size();
-  const auto work_before = [&](std::size_t place) {
-    return kPairsPerSphere * place + first_of_place_[place];
+  const std::uint64_t count = block_count(spheres);
+  const std::uint64_t work = kPairsPerSphere * spheres + part.pairs_of_all;
+  const auto pairs_before = [&](std::size_t place) {
+    return part.pairs_before + first_of_place_[place];
   };
-  const std::size_t count = block_count(spheres);
+  const auto work_before = [&](std::size_t place) {
+    return kPairsPerSphere * place + pairs_before(place);
+  };
+  cuts_.clear();
+  std::uint64_t next = work == 0 ? 1 : 1 + work_before(part.begin) * count / work;
+  for (std::size_t place = part.begin; place <= part.end; ++place) {
+    for (; next <= count && work_before(place) * count >= next * work; ++next)
+      cuts_.push_back({place, pairs_before(place)});
+  }
+  return cuts_;
+}
+
+void SphereBlocks::cut(std::span<const Cut> cuts) {
   first_places_.assign(1, 0);
-  for (std::size_t place = 0; place <= spheres; ++place) {
-    while (first_places_.size() <= count &&
-           work_before(place) * count >= first_places_.size() * work_before(spheres))
-      first_places_.push_back(static_cast<std::uint32_t>(place));
+  work_.clear();
+  Cut last{0, 0};
+  for (const Cut& cut : cuts) {
+    first_places_.push_back(static_cast<std::uint32_t>(cut.place));
+    work_.push_back(kPairsPerSphere * (cut.place - last.place) + cut.pairs - last.pairs);
+    last = cut;
   }
 }
 
+/// Of each place in the order, how many pairs come before it.
+void SphereBlocks::count_pairs(std::span<const geometry::IndexPair> pairs) {
+  std::vector<std::uint32_t>& first = first_of_place_;
+  set_all(first, order_.size() + 1, 0U);
+  for (const geometry::IndexPair& pair : pairs) ++first[first_place(pair)];
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), 0U);
+}
+
 /// By counting, then within the few pairs of each sphere.
-void SphereBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
-                              geometry::ThreadPool& pool) {
+void SphereBlocks::sort_counted(std::span<const geometry::IndexPair> pairs,
+                                geometry::ThreadPool& pool) {
   const auto places = [&](std::uint32_t i) {
     return std::minmax(places_[static_cast<std::size_t>(pairs[i].a)],
                        places_[static_cast<std::size_t>(pairs[i].b)]);
   };
   std::vector<std::uint32_t>& first = first_of_place_;
-  set_all(first, order_.size() + 1, 0U);
   set_all(sorted_, pairs.size(), 0U);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) ++first[places(i).first];
-  std::exclusive_scan(first.begin(), first.end(), first.begin(), 0U);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first[places(i).first]++] = i;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first[first_place(pairs[i])]++] = i;
   // Now each entry is where the next one's pairs begin.
   std::copy_backward(first.begin(), first.end() - 1, first.end());
   first[0] = 0;
@@ -200,6 +240,16 @@ void SphereBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair
   blocks_.push_back(block);
 }
 
+/// Of a block that another rank computes.
+void SphereBlocks::add_no_block() {
+  Block block{};
+  block.first_member = static_cast<std::uint32_t>(members_.size());
+  block.member_count = 1;
+  if (!blocks_.empty()) block.first_ghost = blocks_.back().first_ghost + blocks_.back().ghosts();
+  block.first_range = static_cast<std::uint32_t>(ranges_.size());
+  blocks_.push_back(block);
+}
+
 void SphereBlocks::add_member(std::int32_t sphere, std::span<const SphereBody> spheres) {
   const auto b = static_cast<std::size_t>(sphere);
   member_of_[b] = static_cast<std::uint32_t>(members_.size());
@@ -216,31 +266,33 @@ std::uint32_t SphereBlocks::member(const Block& block, std::int32_t sphere,
   return member - block.first_member;
 }
 
-std::size_t SphereBlocks::block_of(std::int32_t sphere) const noexcept {
-  const std::uint32_t place = places_[static_cast<std::size_t>(sphere)];
+std::size_t SphereBlocks::block_at(std::uint32_t place) const noexcept {
   const auto after = std::upper_bound(first_places_.begin(), first_places_.end(), place);
   return static_cast<std::size_t>(after - first_places_.begin()) - 1;
 }
 
+void SphereBlocks::take_ghosts(std::span<const std::pair<GhostOf, std::uint32_t>> ghosts,
+                               std::size_t of_others) {
+  place_ghosts([&](const auto& visit) {
+    for (const auto& [of, ghost] : ghosts) visit(of, ghost);
+  });
+  ghost_count_ += of_others;
+}
+
 /// By counting; ghosts of a sphere in the order of the blocks.
-void SphereBlocks::find_ghosts() {
-  const auto for_each_ghost_of_blocks = [&](const auto& visit) {
-    for (const Block& block : blocks_) {
-      for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
-        visit(block.first_ghost + m - block.owned, spheres_[block.first_member + m]);
-    }
-  };
+template <class ForEachGhost>
+void SphereBlocks::place_ghosts(const ForEachGhost& for_each_ghost) {
   set_all(first_ghosts_, blocks_.size() + 1, 0U);
-  std::uint32_t ghost_count = 0;
-  for_each_ghost_of_blocks([&](std::uint32_t, std::int32_t sphere) {
-    ++first_ghosts_[block_of(sphere)];
-    ++ghost_count;
+  std::uint32_t count = 0;
+  for_each_ghost([&](const GhostOf& of, std::uint32_t) {
+    ++first_ghosts_[block_of(of.sphere)];
+    ++count;
   });
   std::exclusive_scan(first_ghosts_.begin(), first_ghosts_.end(), first_ghosts_.begin(), 0U);
-  make_room(ghosts_, ghost_count);
-  ghosts_.resize(ghost_count);
-  for_each_ghost_of_blocks([&](std::uint32_t ghost, std::int32_t sphere) {
-    ghosts_[first_ghosts_[block_of(sphere)]++] = {nodes_[static_cast<std::size_t>(sphere)], ghost};
+  make_room(ghosts_, count);
+  ghosts_.resize(count);
+  for_each_ghost([&](const GhostOf& of, std::uint32_t ghost) {
+    ghosts_[first_ghosts_[block_of(of.sphere)]++] = {node_of(of.sphere), ghost};
   });
   std::rotate(first_ghosts_.begin(), first_ghosts_.end() - 1, first_ghosts_.end());
   first_ghosts_[0] = 0;

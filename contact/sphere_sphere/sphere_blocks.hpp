@@ -9,9 +9,27 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact {
+
+/// How many spheres there are up to the last one of the pairs, a < b.
+inline std::size_t spheres_in(std::span<const geometry::IndexPair> pairs) noexcept {
+  std::int32_t last = -1;
+  for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
+  return static_cast<std::size_t>(last + 1);
+}
+
+/// Which of several processes computes which blocks.
+struct BlockOwners {
+  std::span<const int> of_blocks;  ///< rank by block; empty: this process computes all
+  int self = 0;
+
+  bool are_here(std::size_t block) const noexcept {
+    return of_blocks.empty() || of_blocks[block] == self;
+  }
+};
 
 /// Shares spheres and the pairs that they form out into blocks, so that a block is worked on by one
 /// thread, in the cache nearest to it.
@@ -72,6 +90,26 @@ class SphereBlocks {
     std::uint32_t a, b;
   };
 
+  /// A block, by the place of its first sphere in the order.
+  struct Cut {
+    std::uint64_t place;
+    std::uint64_t pairs;  ///< before it
+  };
+
+  /// Part of the order, [begin, end), and how many pairs have their first spheres where.
+  struct PartOfOrder {
+    std::size_t begin;
+    std::size_t end;
+    std::uint64_t pairs_before;
+    std::uint64_t pairs_of_all;
+  };
+
+  /// That a block has a sphere as a ghost.
+  struct GhostOf {
+    std::int32_t sphere;
+    std::uint32_t block;
+  };
+
   /// Takes a new list. Allocates only for a longer one than ever before.
   /// @param pairs  of spheres, a < b, sorted; spheres after the last of them are left out
   /// @param kinds  by pair, so that pairs of a kind lie together; empty: all are of kind 0
@@ -80,6 +118,29 @@ class SphereBlocks {
   void assign(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
               std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool, Positions x);
 
+  // The same in steps, for ranks that have some of the pairs each and tell each other in between.
+
+  /// First puts the spheres in order.
+  void order(std::span<const SphereBody> spheres, Positions x);
+  /// How many blocks so many spheres are cut into.
+  static std::size_t block_count(std::size_t spheres) noexcept;
+  /// Where blocks end in a part of the order.
+  /// @param pairs  those whose first spheres lie there
+  /// @returns  good until the next call
+  std::span<const Cut> find_cuts(std::span<const geometry::IndexPair> pairs,
+                                 const PartOfOrder& part);
+  /// Then cuts it. @param cuts  of all parts
+  void cut(std::span<const Cut> cuts);
+  /// Then takes the pairs of the blocks that are here; of others there are no members then.
+  void fill(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
+            std::span<const std::uint8_t> kinds, const BlockOwners& owners,
+            geometry::ThreadPool& pool, Positions x);
+  /// Last whose sums are added to spheres of the blocks here: ghosts of these, and of other ranks,
+  /// which are counted after these.
+  /// @param ghosts  in the order of their blocks, each with its number
+  void take_ghosts(std::span<const std::pair<GhostOf, std::uint32_t>> ghosts,
+                   std::size_t of_others);
+
   /// The order of the spheres, which is older than the list: read before the list is assigned.
   void exchange_order(const geometry::StateArchive& archive);
 
@@ -87,15 +148,34 @@ class SphereBlocks {
   /// How many spheres there are in blocks: the first of the list.
   std::size_t sphere_count() const noexcept { return order_.size(); }
   /// That owns one of these.
-  std::size_t block_of(std::int32_t sphere) const noexcept;
+  std::size_t block_of(std::int32_t sphere) const noexcept {
+    return block_at(places_[static_cast<std::size_t>(sphere)]);
+  }
+  /// That owns the sphere at a place in the order.
+  std::size_t block_at(std::uint32_t place) const noexcept;
+  /// The place of the one of its spheres whose block has a pair.
+  std::uint32_t first_place(const geometry::IndexPair& pair) const noexcept {
+    return std::min(places_[static_cast<std::size_t>(pair.a)],
+                    places_[static_cast<std::size_t>(pair.b)]);
+  }
+  /// That a block owns, here or elsewhere.
+  std::span<const std::int32_t> spheres_of(std::size_t block) const noexcept {
+    return std::span(order_).subspan(first_places_[block],
+                                     first_places_[block + 1] - first_places_[block]);
+  }
+  NodeId node_of(std::int32_t sphere) const noexcept {
+    return nodes_[static_cast<std::size_t>(sphere)];
+  }
+  /// What each block costs, here or elsewhere, in pairs.
+  std::span<const std::uint64_t> work() const noexcept { return work_; }
   /// Over all blocks.
   std::size_t member_count() const noexcept { return members_.size(); }
   /// The nodes, in order, that no block owns.
   std::span<const NodeRange> other_nodes() const noexcept { return other_nodes_; }
   /// Of all nodes there are.
   std::size_t node_count() const noexcept { return is_owned_.size(); }
-  /// Ghosts, over all blocks.
-  std::size_t ghost_count() const noexcept { return ghosts_.size(); }
+  /// Ghosts, over all blocks, and those of other ranks.
+  std::size_t ghost_count() const noexcept { return ghost_count_; }
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
   std::size_t largest_member_count() const noexcept { return largest_member_count_; }
 
@@ -117,6 +197,16 @@ class SphereBlocks {
   /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
   std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
 
+  /// Calls visit(GhostOf, which ghost) for the ghosts of the blocks here, in the order of the blocks.
+  template <class Visit>
+  void for_each_ghost_here(const Visit& visit) const {
+    for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
+      const Block& block = blocks_[k];
+      for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
+        visit(GhostOf{spheres_[block.first_member + m], k}, block.first_ghost + m - block.owned);
+    }
+  }
+
   /// Calls add(node, which ghost) for every sphere that a block owns and that is a ghost of another
   /// one, in a fixed order.
   /// @param ahead  called with the same some calls before, to ask for what add() will read
@@ -137,10 +227,12 @@ class SphereBlocks {
     std::uint32_t ghost;
   };
 
-  void order_spheres(std::span<const SphereBody> spheres, Positions x);
   void find_places();
-  void sort_pairs(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
-  void cut_order();
+  void count_pairs(std::span<const geometry::IndexPair> pairs);
+  void sort_counted(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
+  void fill_counted(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
+                    std::span<const std::uint8_t> kinds, const BlockOwners& owners,
+                    geometry::ThreadPool& pool, Positions x);
   void find_touching(std::span<const geometry::IndexPair> pairs,
                      std::span<const SphereBody> spheres, Positions x, geometry::ThreadPool& pool);
   void add_range(std::size_t group, std::size_t pair_count);
@@ -155,7 +247,9 @@ class SphereBlocks {
   std::uint32_t member(const Block& block, std::int32_t sphere,
                        std::span<const SphereBody> spheres);
   void add_member(std::int32_t sphere, std::span<const SphereBody> spheres);
-  void find_ghosts();
+  void add_no_block();
+  template <class ForEachGhost>
+  void place_ghosts(const ForEachGhost& for_each_ghost);
   void find_other_nodes(std::size_t node_count);
 
   std::vector<std::int32_t> order_;            ///< spheres along the curve
@@ -163,7 +257,9 @@ class SphereBlocks {
   std::vector<std::uint32_t> first_of_place_;  ///< by place: its first pair in sorted_
   std::vector<std::uint32_t> sorted_;          ///< pairs by place of their first and other sphere
   std::vector<std::uint32_t> first_places_;    ///< by block
-  std::vector<std::uint8_t> touches_;          ///< by pair, 1 or 0, when the list was made
+  std::vector<std::uint64_t> work_;            ///< by block
+  std::vector<Cut> cuts_;
+  std::vector<std::uint8_t> touches_;     ///< by pair, 1 or 0, when the list was made
   std::vector<std::uint32_t> member_of_;  ///< by sphere: which member of the last block it was in
   std::vector<Block> blocks_;
   std::vector<Range> ranges_;
@@ -180,6 +276,7 @@ class SphereBlocks {
   std::vector<std::uint8_t> is_owned_;  ///< by node, 1 or 0
   std::vector<NodeId> nodes_;           ///< by sphere
   std::size_t largest_member_count_ = 0;
+  std::size_t ghost_count_ = 0;
   int lists_in_order_ = 0;  ///< how many lists were made with this order
 };
 

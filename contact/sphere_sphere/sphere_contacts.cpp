@@ -6,15 +6,36 @@
 #include "contact/tracking/slip_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 namespace plekton::contact {
 
-double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
+double SphereContacts::rebuild(std::span<const geometry::IndexPair> pairs,
                                std::span<const SphereBody> spheres, const MaterialPairs& materials,
                                geometry::ThreadPool& pool, Positions x) {
-  tell_touched();
+  const bool were_shared_out = is_shared_out();
+  spheres_ = spheres;
+  materials_ = &materials;
+  std::vector<geometry::IndexPair> own;
+  if (has_ranks()) pairs = own = shared_->deal_out(pairs, spheres, x, blocks_);
+  find_old_slots(pairs);
+  std::vector<KeptPair> kept_elsewhere = dealt_out(kept(left_), were_shared_out);
+  make_room(keys_, pairs.size());
+  keys_.assign(pairs.begin(), pairs.end());
+  find_kinds();
+  if (has_ranks())
+    shared_->fill(keys_, spheres, kinds_, pool, x, blocks_);
+  else
+    blocks_.assign(keys_, spheres, kinds_, pool, x);
+  table_.take(blocks_, kinds_of_list_, old_slots_);
+  set_parameters();
+  return take_dealt_out(std::move(kept_elsewhere));
+}
+
+/// Of those that touch.
+void SphereContacts::find_old_slots(std::span<const geometry::IndexPair> keys) {
   make_room(old_slots_, keys.size());
   old_slots_.assign(keys.size(), kNoSlot);
   left_.clear();
@@ -26,42 +47,76 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
       [&](std::size_t old) {
         if (table_.has_touched(blocks_.slot(old))) left_.push_back(static_cast<std::uint32_t>(old));
       });
-  spheres_ = spheres;
-  const double lost = energy_lost(materials);
-  materials_ = &materials;
-  make_room(keys_, keys.size());
-  keys_.assign(keys.begin(), keys.end());
-  find_kinds();
-  blocks_.assign(keys, spheres, kinds_, pool, x);
-  BlockHolders holders;
-  if (shared_) {
-    shared_->assign(blocks_);
-    holders = {&shared_->ranks(), shared_->holders()};
-  }
-  table_.take(blocks_, kinds_of_list_, old_slots_, holders);
-  set_parameters();
-  return lost;
 }
 
-/// J, of pairs that touch and are on the list no more.
-double SphereContacts::energy_lost(const MaterialPairs& materials) const {
-  std::vector<double> lost;
-  for (const std::uint32_t old : left_) {
-    const std::uint32_t slot = blocks_.slot(old);
-    lost.push_back(0.0);
-    if (!table_.holds(slot)) continue;
-    ContactMemory<AnyLaw> memory = table_.memory(slot);
-    const auto parameters = materials.combine(sphere(keys_[old].a), sphere(keys_[old].b));
-    lost.back() = forget<AnyLaw>(parameters, memory, {});
+/// @param places  ascending
+std::vector<SphereContacts::KeptPair> SphereContacts::kept(
+    std::span<const std::uint32_t> places) const {
+  PairNumbers::Reader numbers(numbers_);
+  std::vector<KeptPair> pairs;
+  for (const std::uint32_t i : places) pairs.push_back(kept_pair(i, numbers));
+  return pairs;
+}
+
+/// What touches and has left the list of this rank goes to the rank on whose list it would be.
+/// @param left  in order
+/// @returns what is to be found on this rank's new list, or is lost
+std::vector<SphereContacts::KeptPair> SphereContacts::dealt_out(std::vector<KeptPair> left,
+                                                                bool were_shared_out) const {
+  if (!has_ranks() || (!were_shared_out && !is_shared_out())) return left;
+  if (!were_shared_out) {
+    std::erase_if(left, [this](const KeptPair& pair) { return is_of_other_rank(pair.key()); });
+    return left;
   }
-  if (table_.is_shared_out()) {
-    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
-      for (std::size_t n = 0; n < lost.size(); ++n)
-        visit(table_.holder(blocks_.slot(left_[n])),
-              std::as_writable_bytes(std::span(&lost[n], 1)));
-    });
+  std::vector<KeptPair> pairs;
+  if (is_shared_out()) {
+    pairs = geometry::dealt_out(
+                shared_->ranks(), std::span<const KeptPair>(left),
+                [this](const KeptPair& pair) { return shared_->rank_of(pair.key(), blocks_); })
+                .things;
+  } else {
+    std::vector<std::uint32_t> touching;
+    for (std::uint32_t i = 0; i < keys_.size(); ++i)
+      if (table_.has_touched(blocks_.slot(i))) touching.push_back(i);
+    const std::vector<KeptPair> own = kept(touching);
+    pairs = geometry::told_to_all(shared_->ranks(), std::span<const KeptPair>(own)).things;
   }
-  return std::accumulate(lost.begin(), lost.end(), 0.0);
+  std::ranges::sort(pairs, {}, &KeptPair::key);
+  for (KeptPair& pair : pairs) pair.memory.history.law = &law_of(pair.key());
+  return pairs;
+}
+
+/// @param pairs  in order
+/// @returns the energy (J) lost with those that are not on the list
+double SphereContacts::take_dealt_out(std::vector<KeptPair> pairs) {
+  PairNumbers numbers;
+  std::vector<ToldPair<double>> lost;
+  std::size_t place = 0;
+  for (KeptPair& pair : pairs) {
+    const geometry::IndexPair key = pair.key();
+    place = place_of(key, place);
+    if (place == keys_.size() || keys_[place] != key) {
+      const Parameters of_pair = materials_->combine(sphere(key.a), sphere(key.b));
+      lost.push_back({key, forget<AnyLaw>(of_pair, pair.memory, {})});
+    } else if (!table_.has_touched(blocks_.slot(place))) {
+      keep(pair, place);
+      if (pair.id != 0) numbers.add(key, pair.id);
+    }
+  }
+  numbers_.merge(std::move(numbers));
+  return sum_of_lost(std::move(lost));
+}
+
+/// In the order of the pairs, whichever rank has them.
+double SphereContacts::sum_of_lost(std::vector<ToldPair<double>> lost) const {
+  double sum = 0.0;
+  const auto add = [&](const ToldPair<double>& pair, int) { sum += pair.told; };
+  if (is_shared_out())
+    visit_in_order(geometry::told_to_all(shared_->ranks(), std::span<const ToldPair<double>>(lost)),
+                   add);
+  else
+    for (const ToldPair<double>& pair : lost) add(pair, 0);
+  return sum;
 }
 
 void SphereContacts::share_out(std::span<const NodeId> met) {
@@ -75,11 +130,10 @@ void SphereContacts::find_kinds() {
   kinds.clear();
   kinds_.clear();
   common_.reset();
-  if (keys_.empty()) return;
-  std::int32_t last = 0;
-  for (const geometry::IndexPair& key : keys_) last = std::max(last, key.b);
+  const std::size_t spheres = has_ranks() ? blocks_.sphere_count() : spheres_in(keys_);
+  if (spheres == 0) return;
   const MaterialId first = spheres_.front().material;
-  if (std::ranges::all_of(spheres_.first(static_cast<std::size_t>(last) + 1),
+  if (std::ranges::all_of(spheres_.first(spheres),
                           [&](const SphereBody& sphere) { return sphere.material == first; })) {
     const AnyLaw::Properties& properties = materials_->properties(first, first);
     const bool keeps = !properties.law->combines_radii(properties);
@@ -87,24 +141,44 @@ void SphereContacts::find_kinds() {
     kinds.emplace_back(*properties.law, keeps);
     return;
   }
+  std::vector<geometry::IndexPair> firsts;
   make_room(kinds_, keys_.size());
   for (const geometry::IndexPair& key : keys_) {
-    const AnyLaw::Functions* const law =
-        materials_->properties(sphere(key.a).material, sphere(key.b).material).law;
+    const AnyLaw::Functions* const law = &law_of(key);
     auto known = std::ranges::find(kinds, law, &PairKind::law);
     if (known == kinds.end()) {
       kinds.emplace_back(*law, true);
       known = kinds.end() - 1;
+      firsts.push_back(key);
     }
     kinds_.push_back(static_cast<std::uint8_t>(known - kinds.begin()));
   }
+  if (is_shared_out()) agree_on_kinds(std::move(firsts));
+}
+
+/// Kinds come in the order of their first pairs, on whichever rank these are.
+/// @param firsts  pairs of this rank, by kind
+void SphereContacts::agree_on_kinds(std::vector<geometry::IndexPair> firsts) {
+  std::vector<PairKind>& kinds = kinds_of_list_;
+  const std::vector<PairKind> own = std::exchange(kinds, {});
+  firsts =
+      geometry::told_to_all(shared_->ranks(), std::span<const geometry::IndexPair>(firsts)).things;
+  std::ranges::sort(firsts);
+  for (const geometry::IndexPair& key : firsts) {
+    const AnyLaw::Functions& law = law_of(key);
+    if (std::ranges::find(kinds, &law, &PairKind::law) == kinds.end())
+      kinds.emplace_back(law, true);
+  }
+  std::vector<std::uint8_t> now;
+  for (const PairKind& kind : own)
+    now.push_back(static_cast<std::uint8_t>(std::ranges::find(kinds, kind) - kinds.begin()));
+  for (std::uint8_t& kind : kinds_) kind = now[kind];
 }
 
 void SphereContacts::set_parameters() {
   if (common_) return;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     const std::uint32_t slot = blocks_.slot(i);
-    if (!table_.holds(slot)) continue;
     const PairKind& kind = table_.kind(slot);
     table_.rows(slot)
         .from(kind.parameters)
@@ -114,13 +188,14 @@ void SphereContacts::set_parameters() {
   }
 }
 
-/// Of pair i of the list.
-SphereContacts::Parameters SphereContacts::parameters(std::size_t i) const noexcept {
+/// @param place  in the list, or kElsewhere
+SphereContacts::Parameters SphereContacts::parameters(const geometry::IndexPair& pair,
+                                                      std::size_t place) const noexcept {
   if (common_)
-    return AnyLaw::combine(common_->properties, {common_->material, sphere(keys_[i].a).radius},
-                           {common_->material, sphere(keys_[i].b).radius});
-  const std::uint32_t slot = blocks_.slot(i);
-  if (!table_.holds(slot)) return materials_->combine(sphere(keys_[i].a), sphere(keys_[i].b));
+    return AnyLaw::combine(common_->properties, {common_->material, sphere(pair.a).radius},
+                           {common_->material, sphere(pair.b).radius});
+  if (place == kElsewhere) return materials_->combine(sphere(pair.a), sphere(pair.b));
+  const std::uint32_t slot = blocks_.slot(place);
   const PairKind& kind = table_.kind(slot);
   Parameters kept;
   kept.law = kind.law;
@@ -130,18 +205,35 @@ SphereContacts::Parameters SphereContacts::parameters(std::size_t i) const noexc
   return kept;
 }
 
-SphereContacts::PairState SphereContacts::state_of(std::uint32_t slot) const noexcept {
-  PairState state{table_.gap(slot), table_.memory(slot)};
+SphereContacts::KeptPair SphereContacts::kept_pair(std::size_t i,
+                                                   PairNumbers::Reader& numbers) const {
+  const std::uint32_t slot = blocks_.slot(i);
+  KeptPair pair{{keys_[i].a, keys_[i].b}, 0, table_.gap(slot), table_.memory(slot)};
+  if (table_.is_numbered(slot)) pair.id = numbers.of(keys_[i]);
   const PairKind& kind = table_.kind(slot);
-  if (kind.force > 0) state.force = table_.rows(slot).from(kind.force).at<Vec3>(slot % kLanes);
-  return state;
+  if (kind.force > 0) pair.force = table_.rows(slot).from(kind.force).at<Vec3>(slot % kLanes);
+  return pair;
 }
 
-/// N, of the last step, of pair i of the list.
-Vec3 SphereContacts::force_on_b(std::size_t i, const PairState& pair) const noexcept {
-  const AnyLaw::Functions& law = *table_.kind(blocks_.slot(i)).law;
+/// N, of the last step.
+Vec3 SphereContacts::force_on_b(const KeptPair& pair, const Parameters& parameters) const noexcept {
+  const AnyLaw::Functions& law = *pair.memory.history.law;
   if (!law.force_of_state) return pair.force;
-  return law.force_of_state(parameters(i), pair.gap, pair.memory.normal, pair.memory.history);
+  return law.force_of_state(parameters, pair.gap, pair.memory.normal, pair.memory.history);
+}
+
+std::optional<double> SphereContacts::gap_of_touching(std::size_t i) const noexcept {
+  const std::uint32_t slot = blocks_.slot(i);
+  return table_.has_touched(slot) ? std::optional(table_.gap(slot)) : std::nullopt;
+}
+
+std::optional<double> SphereContacts::gap_of_near(std::size_t i, double margin,
+                                                  Positions x) const noexcept {
+  const SphereBody &a = sphere(keys_[i].a), &b = sphere(keys_[i].b);
+  const double touch = a.radius + b.radius;
+  const double range = touch + margin + AnyLaw::interaction_range(parameters(keys_[i], i));
+  const double squared = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm();
+  return squared < range * range ? std::optional(std::sqrt(squared) - touch) : std::nullopt;
 }
 
 double SphereContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool,
@@ -201,13 +293,6 @@ void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& po
   BlockTotals of_own;
   for (const std::uint32_t k : own) of_own.add(outcomes_[k]);
   totals_ = shared_->gather(forces, of_own);
-  is_told_ = false;
-}
-
-void SphereContacts::tell_touched() const {
-  if (is_told_) return;
-  is_told_ = true;
-  table_.tell_touched();
 }
 
 void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
@@ -235,35 +320,41 @@ SphereRange SphereContacts::range_of(const SphereBlocks::Range& range) noexcept 
 double SphereContacts::elastic_energy() const {
   double energy = 0.0;
   for_each_told<double>(
-      [this](std::size_t i, std::uint32_t slot) {
-        const Parameters of_pair = parameters(i);
+      [this](std::size_t i) -> std::optional<double> {
+        const std::uint32_t slot = blocks_.slot(i);
+        if (!table_.has_touched(slot)) return std::nullopt;
+        const Parameters of_pair = parameters(keys_[i], i);
         return AnyLaw::elastic_normal_energy(of_pair, table_.gap(slot)) +
                AnyLaw::history_energy(of_pair, table_.memory(slot).history);
       },
-      [&](std::size_t, double of_pair) { energy += of_pair; });
+      [&](const geometry::IndexPair&, std::size_t, double of_pair) { energy += of_pair; });
   return energy;
 }
 
 void SphereContacts::assign_ids(std::int64_t& last) {
-  tell_touched();
   PairNumbers::Reader known(numbers_);
   PairNumbers numbers;
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    const std::uint32_t slot = blocks_.slot(i);
-    if (!table_.has_touched(slot)) continue;
-    numbers.add(keys_[i], table_.is_numbered(slot) ? known.of(keys_[i]) : ++last);
-  }
+  for_each_told<std::int64_t>(
+      [&](std::size_t i) -> std::optional<std::int64_t> {
+        const std::uint32_t slot = blocks_.slot(i);
+        if (!table_.has_touched(slot)) return std::nullopt;
+        return table_.is_numbered(slot) ? known.of(keys_[i]) : 0;
+      },
+      [&](const geometry::IndexPair& pair, std::size_t place, std::int64_t number) {
+        if (number == 0) number = ++last;
+        if (place != kElsewhere) numbers.add(pair, number);
+      });
   numbers_ = std::move(numbers);
   table_.set_numbered();
 }
 
 void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
-  PairNumbers::Reader numbers(numbers_);
-  for_each_state([&](std::size_t i, const PairState& pair) {
-    const geometry::IndexPair& key = keys_[i];
+  for_each_kept([&](const KeptPair& pair, std::size_t place) {
+    const geometry::IndexPair key = pair.key();
     const SphereBody &a = sphere(key.a), &b = sphere(key.b);
+    const Parameters of_pair = parameters(key, place);
     ContactRecord row;
-    if (table_.is_numbered(blocks_.slot(i))) row.id = numbers.of(key);
+    row.id = pair.id;
     row.a = {BodyKind::sphere, key.a, geometry::Feature(a.node)};
     row.b = {BodyKind::sphere, key.b, geometry::Feature(b.node)};
     row.point_a = x[index_of(a.node)];
@@ -271,9 +362,8 @@ void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
     row.normal = pair.memory.normal;
     row.gap = pair.gap;
     row.point = row.point_a + (a.radius + 0.5 * row.gap) * row.normal;
-    set_force(row, force_on_b(i, pair));
+    set_force(row, force_on_b(pair, of_pair));
     row.moment = AnyLaw::moment(pair.memory.history, pair.memory.normal);
-    const Parameters of_pair = parameters(i);
     set_state<AnyLaw>(row, of_pair, pair.memory.history,
                       AnyLaw::elastic_normal_force(of_pair, row.gap));
     visit(row);
@@ -296,12 +386,22 @@ void SphereContacts::exchange(const geometry::StateArchive& archive,
     pairs = kept_pairs();
   }
   std::size_t place = 0;
+  bool is_unlisted = false;
   archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& pair) {
-    place = exchange_pair(row, pair, place);
-    if (row.is_reading()) keep(pair, place);
+    exchange_pair(row, pair);
+    if (!row.is_reading() || is_of_other_rank(pair.key())) return;
+    place = place_of(pair.key(), place);
+    if (place == keys_.size() || keys_[place] != pair.key()) {
+      is_unlisted = true;
+      return;
+    }
+    if (pair.id != 0) numbers_.add(pair.key(), pair.id);
+    keep(pair, place);
     ++place;  // each pair touches once
   });
   if (!archive.is_reading()) return;
+  if (is_shared_out()) is_unlisted = any_rank(shared_->ranks(), is_unlisted);
+  if (is_unlisted) throw_unlisted_contact();
   totals_ = {};
   totals_.touching = pairs.size();
   totals_.largest_ratio = overlap_ratio;
@@ -312,58 +412,66 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
   keys_.clear();
   list();
   numbers_ = {};
-  totals_ = {};
-  totals_.largest_ratio = before.largest_overlap_ratio();
+  std::uint64_t touching = 0;
   std::size_t place = 0;
   for (KeptPair& pair : before.kept_pairs()) {
     for (std::int32_t& sphere : pair.spheres) sphere = places[static_cast<std::size_t>(sphere)];
-    const geometry::IndexPair key{pair.spheres[0], pair.spheres[1]};
-    if (key.a < 0 || key.b < 0) continue;
-    place = next_place(place, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
+    const geometry::IndexPair key = pair.key();
+    if (key.a < 0 || key.b < 0 || is_of_other_rank(key)) continue;
+    place = place_of(key, place);
     if (place == keys_.size() || keys_[place] != key) continue;
-    require_same_law(pair.state.memory.history, table_.kind(blocks_.slot(place)).law);
+    require_same_law(pair.memory.history, &law_of(key));
+    if (pair.id != 0) numbers_.add(key, pair.id);
     keep(pair, place);
-    ++totals_.touching;
+    ++touching;
   }
+  if (is_shared_out()) {
+    const std::vector<std::uint64_t> of_ranks = told_by_each(shared_->ranks(), touching);
+    touching = std::accumulate(of_ranks.begin(), of_ranks.end(), std::uint64_t{0});
+  }
+  totals_ = {};
+  totals_.touching = touching;
+  totals_.largest_ratio = before.largest_overlap_ratio();
 }
 
 std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
   std::vector<KeptPair> pairs;
-  PairNumbers::Reader numbers(numbers_);
-  for_each_state([&](std::size_t i, const PairState& pair) {
-    const bool is_numbered = table_.is_numbered(blocks_.slot(i));
-    pairs.push_back({{keys_[i].a, keys_[i].b}, pair, is_numbered ? numbers.of(keys_[i]) : 0});
-  });
+  for_each_kept([&](const KeptPair& pair, std::size_t) { pairs.push_back(pair); });
   return pairs;
 }
 
-/// @param from  place in the list of the pair before
-/// @returns the place of this one
-std::size_t SphereContacts::exchange_pair(geometry::RowFields& row, KeptPair& pair,
-                                          std::size_t from) const {
-  row("spheres", pair.spheres);
-  const geometry::IndexPair key{pair.spheres[0], pair.spheres[1]};
-  const std::size_t place =
-      next_place(from, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
-  if (place == keys_.size() || keys_[place] != key) throw_unlisted_contact();
-  const PairKind& kind = table_.kind(blocks_.slot(place));
-  row("gap", pair.state.gap);
-  contact::exchange(row, pair.state.memory, kind.law);
-  row("id", pair.id);
-  row.numbers("force", pair.state.force.data(), kind.force > 0 ? 3 : 0);
-  return place;
+/// @param from  place of a pair before it
+/// @returns where in the list it is, if it is there
+std::size_t SphereContacts::place_of(const geometry::IndexPair& key, std::size_t from) const {
+  return next_place(from, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
 }
 
+bool SphereContacts::is_of_other_rank(const geometry::IndexPair& key) const {
+  return is_shared_out() && shared_->rank_of(key, blocks_) != shared_->ranks().rank();
+}
+
+void SphereContacts::exchange_pair(geometry::RowFields& row, KeptPair& pair) const {
+  row("spheres", pair.spheres);
+  const auto is_a_sphere = [this](std::int32_t i) {
+    return i >= 0 && static_cast<std::size_t>(i) < spheres_.size();
+  };
+  if (!std::ranges::all_of(pair.spheres, is_a_sphere)) throw_unlisted_contact();
+  const AnyLaw::Functions& law = law_of(pair.key());
+  row("gap", pair.gap);
+  contact::exchange(row, pair.memory, &law);
+  row("id", pair.id);
+  row.numbers("force", pair.force.data(), law.force_of_state ? 0 : 3);
+}
+
+/// Of a pair that touches, and was not known to.
 void SphereContacts::keep(const KeptPair& pair, std::size_t place) {
   const std::uint32_t slot = blocks_.slot(place);
   table_.touched(slot).set_moved(slot % kLanes, true, pair.id != 0);
-  if (pair.id != 0) numbers_.add(keys_[place], pair.id);
-  if (!table_.holds(slot)) return;
   const PairKind& kind = table_.kind(slot);
   const PairTable::Rows rows = table_.rows(slot);
-  table_.set_memory(slot, pair.state.memory);
-  rows.from(PairNumbersOfRow::kGap).set(slot % kLanes, pair.state.gap);
-  if (kind.force > 0) rows.from(kind.force).set(slot % kLanes, pair.state.force);
+  table_.set_memory(slot, pair.memory);
+  rows.from(PairNumbersOfRow::kGap).set(slot % kLanes, pair.gap);
+  if (kind.force > 0) rows.from(kind.force).set(slot % kLanes, pair.force);
 }
 
 void SphereContacts::hand_over(const SphereBlocks::Block& block, const SphereWork& work,

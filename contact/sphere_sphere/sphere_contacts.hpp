@@ -8,12 +8,14 @@
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "contact/sphere_sphere/sphere_range.hpp"
 #include "contact/sphere_sphere/sphere_sums.hpp"
+#include "contact/sphere_sphere/told_pairs.hpp"
 #include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/rekey.hpp"
 #include "geometry/base/function_ref.hpp"
 
-#include <cmath>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,9 +28,9 @@ class SphereContacts {
  public:
   using Parameters = AnyLaw::Parameters;
 
-  /// From here on ranks share the blocks; to be called before the first list. All of them have all
-  /// lists, and the forces on all common nodes; what a contact remembers has the rank that computes
-  /// it. What asks for contacts then has to be asked by all ranks.
+  /// From here on ranks share the blocks; to be called before the first list. Each has the pairs
+  /// that it computes, and what they remember; all have the forces on all common nodes. What asks
+  /// for contacts then has to be asked by all ranks, and tells each of all contacts.
   void share_among(geometry::Ranks& ranks) { shared_.emplace(ranks); }
   /// Shares out what there is on the lists: before the first step with them.
   /// @param met  as SharedMotion::assign() has it
@@ -48,6 +50,7 @@ class SphereContacts {
   }
 
   /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
+  /// @param pairs  of ranks each has some, which together are all
   /// @param spheres, materials  must not change until the next list
   /// @param x  m, of nodes, to put what is near together; empty: the spheres are in order already
   /// @returns the energy (J) lost with contacts that left the list
@@ -68,25 +71,14 @@ class SphereContacts {
   /// Calls visit(a, b, parameters, gap) for every touching pair, in the order of the list.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
-    for_each_told<double>([this](std::size_t, std::uint32_t slot) { return table_.gap(slot); },
-                          [&](std::size_t i, double gap) {
-                            visit(sphere(keys_[i].a).node, sphere(keys_[i].b).node, parameters(i),
-                                  gap);
-                          });
+    visit_gaps([this](std::size_t i) { return gap_of_touching(i); }, visit);
   }
 
   /// Calls visit(a, b, parameters, gap) for every listed pair that is nearer than a margin (m) with
   /// the nodes where they are now.
   template <class Visit>
   void for_each_near(double margin, Positions x, Visit&& visit) const {
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const SphereBody &a = sphere(keys_[i].a), &b = sphere(keys_[i].b);
-      const Parameters of_pair = parameters(i);
-      const double touch = a.radius + b.radius;
-      const double range = touch + margin + AnyLaw::interaction_range(of_pair);
-      const double squared = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm();
-      if (squared < range * range) visit(a.node, b.node, of_pair, std::sqrt(squared) - touch);
-    }
+    visit_gaps([&](std::size_t i) { return gap_of_near(i, margin, x); }, visit);
   }
 
   /// Gives a number after the last one to every touching pair that has none. A pair keeps its
@@ -110,29 +102,43 @@ class SphereContacts {
   using Outcome = BlockOutcome<kLanes>;
 
   /// What there is of a touching pair.
-  struct PairState {
-    double gap = 0.0;  ///< m
-    ContactMemory<AnyLaw> memory;
-    Vec3 force = Vec3::Zero();  ///< N, on b; where rows keep it
-  };
-
-  /// A touching pair in a state.
   struct KeptPair {
     std::array<std::int32_t, 2> spheres;
-    PairState state;
-    std::int64_t id;  ///< 0: none
+    std::int64_t id = 0;  ///< 0: none
+    double gap = 0.0;     ///< m
+    ContactMemory<AnyLaw> memory;
+    Vec3 force = Vec3::Zero();  ///< N, on b; where rows keep it
+
+    geometry::IndexPair key() const noexcept { return {spheres[0], spheres[1]}; }
   };
 
   const SphereBody& sphere(std::int32_t index) const noexcept {
     return spheres_[static_cast<std::size_t>(index)];
   }
-  Parameters parameters(std::size_t i) const noexcept;
-  Vec3 force_on_b(std::size_t i, const PairState& pair) const noexcept;
+  const AnyLaw::Functions& law_of(const geometry::IndexPair& pair) const {
+    return *materials_->properties(sphere(pair.a).material, sphere(pair.b).material).law;
+  }
+  Parameters parameters(const geometry::IndexPair& pair, std::size_t place) const noexcept;
+  Vec3 force_on_b(const KeptPair& pair, const Parameters& parameters) const noexcept;
+  std::optional<double> gap_of_touching(std::size_t i) const noexcept;
+  std::optional<double> gap_of_near(std::size_t i, double margin, Positions x) const noexcept;
+
+  // A new list.
+  void find_old_slots(std::span<const geometry::IndexPair> keys);
+  std::vector<KeptPair> kept(std::span<const std::uint32_t> places) const;
+  std::vector<KeptPair> dealt_out(std::vector<KeptPair> left, bool were_shared_out) const;
+  double take_dealt_out(std::vector<KeptPair> pairs);
+  double sum_of_lost(std::vector<ToldPair<double>> lost) const;
   void find_kinds();
+  void agree_on_kinds(std::vector<geometry::IndexPair> firsts);
   void set_parameters();
-  double energy_lost(const MaterialPairs& materials) const;
+
+  // What there is of pairs.
+  KeptPair kept_pair(std::size_t i, PairNumbers::Reader& numbers) const;
   std::vector<KeptPair> kept_pairs() const;
-  std::size_t exchange_pair(geometry::RowFields& row, KeptPair& pair, std::size_t from) const;
+  std::size_t place_of(const geometry::IndexPair& key, std::size_t from) const;
+  bool is_of_other_rank(const geometry::IndexPair& key) const;
+  void exchange_pair(geometry::RowFields& row, KeptPair& pair) const;
   void keep(const KeptPair& pair, std::size_t place);
   void advance_block(const SphereBlocks::Block& block, const Motion& motion, SphereWork& work);
   SphereRange range_of(const SphereBlocks::Range& range) noexcept;
@@ -147,62 +153,64 @@ class SphereContacts {
   void share_blocks(const Motion& motion, geometry::ThreadPool& pool, NodeForces& forces);
   void compute_block(std::size_t block, const Motion& motion, SphereWork& work, NodeForces& forces);
 
-  /// Ranks know of all pairs which touch, not only of their own.
-  void tell_touched() const;
+  bool has_ranks() const noexcept { return shared_ && shared_->ranks().count() > 1; }
+  /// Whether each rank has pairs of its own: else each has all.
+  bool is_shared_out() const noexcept { return shared_ && shared_->is_worth_it(); }
 
-  /// Calls visit(place in the list, what tell(place, slot) comes to) for every touching pair, in
-  /// the order of the list. tell() is asked where the pair is held, and comes to plain numbers, whole
-  /// ones of 8 bytes.
+  /// Calls visit(pair, place in the list, told) for every pair of which tell(place) comes to
+  /// something, in the order of the pairs; kElsewhere is the place on other ranks.
   template <class Told, class Tell, class Visit>
-  void for_each_told(Tell&& tell, Visit&& visit) const {
-    tell_touched();
-    if (table_.is_shared_out()) {
-      for_each_told_by_ranks<Told>(tell, visit);
+  void for_each_told(const Tell& tell, const Visit& visit) const {
+    if (!is_shared_out()) {
+      for (std::size_t i = 0; i < keys_.size(); ++i)
+        if (const std::optional<Told> told = tell(i)) visit(keys_[i], i, *told);
       return;
     }
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const std::uint32_t slot = blocks_.slot(i);
-      if (table_.has_touched(slot)) visit(i, tell(i, slot));
-    }
-  }
-
-  /// Some pairs at a time, so that a message is not as large as the scene.
-  template <class Told, class Tell, class Visit>
-  void for_each_told_by_ranks(Tell&& tell, Visit&& visit) const {
-    constexpr std::size_t kAtATime = geometry::Ranks::kUsualRoom / sizeof(Told);
-    std::vector<Told> told;
+    std::size_t next = 0, visited = 0;
     std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < keys_.size();) {
-      told.clear();
-      places.clear();
-      for (; i < keys_.size() && told.size() < kAtATime; ++i) {
-        const std::uint32_t slot = blocks_.slot(i);
-        if (!table_.has_touched(slot)) continue;
-        places.push_back(i);
-        told.push_back(table_.holds(slot) ? tell(i, slot) : Told());
+    const auto tell_some = [&](std::size_t end, std::vector<ToldPair<Told>>& own) {
+      for (; next < keys_.size() && static_cast<std::size_t>(keys_[next].a) < end; ++next) {
+        const std::optional<Told> told = tell(next);
+        if (!told) continue;
+        own.push_back({keys_[next], *told});
+        places.push_back(next);
       }
-      geometry::share(shared_->ranks(), room_, [&](const auto& visit_piece) {
-        for (std::size_t n = 0; n < told.size(); ++n)
-          visit_piece(table_.holder(blocks_.slot(places[n])),
-                      std::as_writable_bytes(std::span(&told[n], 1)));
-      });
-      for (std::size_t n = 0; n < told.size(); ++n) visit(places[n], told[n]);
-    }
+    };
+    const int self = shared_->ranks().rank();
+    for_each_of_ranks<Told>(shared_->ranks(), blocks_.sphere_count(), tell_some,
+                            [&](const ToldPair<Told>& pair, int rank) {
+                              const bool is_own = rank == self;
+                              visit(pair.pair, is_own ? places[visited++] : kElsewhere, pair.told);
+                            });
   }
 
-  /// The same of all that there is of a pair.
+  template <class Gap, class Visit>
+  void visit_gaps(const Gap& gap_of, Visit&& visit) const {
+    for_each_told<double>(
+        gap_of, [&](const geometry::IndexPair& pair, std::size_t place, double gap) {
+          visit(sphere(pair.a).node, sphere(pair.b).node, parameters(pair, place), gap);
+        });
+  }
+
+  /// Calls visit(KeptPair, place) for every touching pair.
   template <class Visit>
-  void for_each_state(Visit&& visit) const {
-    for_each_told<PairState>([this](std::size_t, std::uint32_t slot) { return state_of(slot); },
-                             [&](std::size_t i, PairState state) {
-                               // Where a law is in memory, each process knows for itself.
-                               state.memory.history.law = table_.kind(blocks_.slot(i)).law;
-                               visit(i, state);
-                             });
+  void for_each_kept(Visit&& visit) const {
+    PairNumbers::Reader numbers(numbers_);
+    for_each_told<KeptPair>(
+        [&](std::size_t i) {
+          const bool touches = table_.has_touched(blocks_.slot(i));
+          return touches ? std::optional(kept_pair(i, numbers)) : std::nullopt;
+        },
+        [&](const geometry::IndexPair& key, std::size_t place, KeptPair pair) {
+          // Where a law is in memory, each process knows for itself.
+          pair.memory.history.law = &law_of(key);
+          visit(pair, place);
+        });
   }
-  PairState state_of(std::uint32_t slot) const noexcept;
 
-  std::vector<geometry::IndexPair> keys_;  ///< of spheres
+  static constexpr std::size_t kElsewhere = std::numeric_limits<std::size_t>::max();
+
+  std::vector<geometry::IndexPair> keys_;  ///< of spheres; of this rank
   std::vector<std::uint8_t> kinds_;        ///< by pair; empty: one of all
   std::span<const SphereBody> spheres_;
   /// Of all spheres, where parameters are not kept.
@@ -214,14 +222,12 @@ class SphereContacts {
   SphereBlocks blocks_;
   std::optional<SharedBlocks> shared_;        ///< nothing: this process computes all
   const MaterialPairs* materials_ = nullptr;  ///< of the list
-  mutable PairTable table_;
-  mutable bool is_told_ = true;          ///< which pairs touch
-  mutable std::vector<std::byte> room_;  ///< for messages
-  PairNumbers numbers_;                  ///< of the pairs that touched when they were numbered last
-  std::vector<SphereSum> ghost_sums_;    ///< of ghosts
-  std::vector<Outcome> outcomes_;        ///< by block that this process computes
-  BlockTotals totals_;                   ///< of all blocks
-  std::vector<SphereWork> work_;         ///< by thread
+  PairTable table_;
+  PairNumbers numbers_;                ///< of the pairs that touched when they were numbered last
+  std::vector<SphereSum> ghost_sums_;  ///< of ghosts
+  std::vector<Outcome> outcomes_;      ///< by block that this process computes
+  BlockTotals totals_;                 ///< of all blocks
+  std::vector<SphereWork> work_;       ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
   std::vector<std::uint32_t> left_;       ///< touching pairs, by place, that a new list has not
   std::vector<PairKind> kinds_of_list_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace plekton::geometry {
@@ -63,6 +67,80 @@ class Ranks {
 
 /// Whether a rank says so. Called by all of them.
 bool any_rank(Ranks& ranks, bool says);
+
+/// Things of several ranks, one after the other in the order of the ranks. They are plain numbers;
+/// Eigen's small vectors are, though not by the letter trivially copyable.
+template <class Thing>
+struct ThingsOfRanks {
+  static_assert(std::is_trivially_destructible_v<Thing> && sizeof(Thing) % Ranks::kUnit == 0);
+
+  /// Makes room for so many of each rank.
+  explicit ThingsOfRanks(std::vector<std::size_t> of_ranks) : counts(std::move(of_ranks)) {
+    things.resize(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  }
+
+  std::vector<std::size_t> counts;  ///< by rank
+  std::vector<Thing> things;
+
+  std::span<const Thing> of(int rank) const {
+    return std::span(things).subspan(begin(rank), count(rank));
+  }
+  std::span<Thing> of(int rank) { return std::span(things).subspan(begin(rank), count(rank)); }
+  /// Bytes of each rank.
+  std::vector<std::size_t> sizes() const {
+    std::vector<std::size_t> bytes;
+    for (const std::size_t of_rank : counts) bytes.push_back(of_rank * sizeof(Thing));
+    return bytes;
+  }
+
+ private:
+  std::size_t count(int rank) const { return counts[static_cast<std::size_t>(rank)]; }
+  std::size_t begin(int rank) const {
+    return std::accumulate(counts.begin(), counts.begin() + rank, std::size_t{0});
+  }
+};
+
+/// What each rank says, by rank. Called by all of them.
+template <class Thing>
+std::vector<Thing> told_by_each(Ranks& ranks, const Thing& own) {
+  ThingsOfRanks<Thing> all(std::vector<std::size_t>(static_cast<std::size_t>(ranks.count()), 1));
+  all.of(ranks.rank())[0] = own;
+  ranks.gather(std::as_writable_bytes(std::span(all.things)), all.sizes());
+  return std::move(all.things);
+}
+
+/// Tells all ranks the things of each. Called by all of them.
+template <class Thing>
+ThingsOfRanks<Thing> told_to_all(Ranks& ranks, std::span<const Thing> own) {
+  ThingsOfRanks<Thing> all(told_by_each(ranks, own.size()));
+  std::ranges::copy(own, all.of(ranks.rank()).begin());
+  ranks.gather(std::as_writable_bytes(std::span(all.things)), all.sizes());
+  return all;
+}
+
+/// Gives each thing to one rank. Called by all of them.
+/// @param receiver  (thing) -> rank
+/// @returns what comes to this one, of each rank in the order in which it has them
+template <class Thing, class Receiver>
+ThingsOfRanks<Thing> dealt_out(Ranks& ranks, std::span<const Thing> things,
+                               const Receiver& receiver) {
+  const auto count = static_cast<std::size_t>(ranks.count());
+  std::vector<std::size_t> counts(count, 0);
+  for (const Thing& thing : things) ++counts[static_cast<std::size_t>(receiver(thing))];
+  ThingsOfRanks<Thing> sent(counts);
+  std::vector<Thing*> next;
+  for (int rank = 0; rank < ranks.count(); ++rank) next.push_back(sent.of(rank).data());
+  for (const Thing& thing : things) *next[static_cast<std::size_t>(receiver(thing))]++ = thing;
+  const std::vector<std::size_t> of_all =
+      told_to_all(ranks, std::span<const std::size_t>(counts)).things;
+  for (std::size_t rank = 0; rank < count; ++rank)
+    counts[rank] = of_all[rank * count + static_cast<std::size_t>(ranks.rank())];
+  ThingsOfRanks<Thing> received(std::move(counts));
+  ranks.begin_exchange(std::as_bytes(std::span(sent.things)), sent.sizes(),
+                       std::as_writable_bytes(std::span(received.things)), received.sizes());
+  ranks.end_exchange();
+  return received;
+}
 
 /// Gives every rank what the owners of pieces of memory have in them.
 /// @param room            for messages, kept from call to call

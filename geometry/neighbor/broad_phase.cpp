@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/broad_phase.hpp"
 
-#include "geometry/base/ranks.hpp"
 #include "geometry/base/vector_width.hpp"
 #include "geometry/neighbor/bunch_pairs.hpp"
 
@@ -258,33 +257,9 @@ struct BroadPhase::Implementation {
     });
   }
 
-  /// Adds to the first list what other ranks have found. @param parts  of this rank
-  void gather(std::span<std::vector<IndexPair>> parts, Ranks& ranks);
-
   std::vector<std::vector<IndexPair>> found;  ///< by thread
-  std::vector<IndexPair> all;                 ///< of all ranks
   std::vector<std::size_t> row_ends;
 };
-
-/// First how many each rank has, then which.
-void BroadPhase::Implementation::gather(std::span<std::vector<IndexPair>> parts, Ranks& ranks) {
-  const auto count = static_cast<std::size_t>(ranks.count());
-  const auto self = static_cast<std::size_t>(ranks.rank());
-  std::vector<std::size_t> sizes(count, 0);
-  for (const std::vector<IndexPair>& part : parts) sizes[self] += sizeof(IndexPair) * part.size();
-  ranks.gather(std::as_writable_bytes(std::span(sizes)),
-               std::vector<std::size_t>(count, sizeof(std::size_t)));
-  const auto before = std::accumulate(sizes.begin(), sizes.begin() + ranks.rank(), std::size_t{0});
-  const auto total = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
-  all.resize(total / sizeof(IndexPair));
-  auto to = all.begin() + static_cast<std::ptrdiff_t>(before / sizeof(IndexPair));
-  for (std::vector<IndexPair>& part : parts) {
-    to = std::copy(part.begin(), part.end(), to);
-    part.clear();
-  }
-  ranks.gather(std::as_writable_bytes(std::span(all)), sizes);
-  std::swap(parts[0], all);
-}
 
 namespace {
 
@@ -352,23 +327,19 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) con
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
                             const std::function<bool(const IndexPair&)>& is_wanted,
-                            Ranks* ranks) const {
+                            const SearchShare& share) const {
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(static_cast<std::size_t>(pool.thread_count()));
   const auto keep_wanted = [&](std::vector<IndexPair>& all, std::size_t old) {
     const auto news = all.begin() + static_cast<std::ptrdiff_t>(old);
     all.erase(std::remove_if(news, all.end(), std::not_fn(std::cref(is_wanted))), all.end());
   };
-  const bool is_alone = ranks == nullptr || ranks->count() == 1;
-  const std::size_t rank = is_alone ? 0 : static_cast<std::size_t>(ranks->rank());
-  const std::size_t count = is_alone ? 1 : static_cast<std::size_t>(ranks->count());
-  const std::size_t first = rank * tree.bunch_count() / count;
-  const std::size_t last = (rank + 1) * tree.bunch_count() / count;
+  const std::size_t first = share.part * tree.bunch_count() / share.count;
+  const std::size_t last = (share.part + 1) * tree.bunch_count() / share.count;
   pool.for_each_range(last - first, [&](std::size_t begin, std::size_t end, int worker) {
     find_pairs(tree, first + begin, first + end, keep_wanted,
                found[static_cast<std::size_t>(worker)]);
   });
-  if (!is_alone) implementation_->gather(found, *ranks);
   implementation_->sort(found, pairs, pool);
 }
 

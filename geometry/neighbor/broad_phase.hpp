@@ -14,7 +14,11 @@
 
 namespace plekton::geometry {
 
-class Ranks;
+/// One of several parts of a search: each pair is found in one of them.
+struct SearchShare {
+  std::size_t part = 0;
+  std::size_t count = 1;
+};
 
 /// Two indices that belong together; ordered by a, then b.
 struct IndexPair {
@@ -63,11 +67,10 @@ class BroadPhase {
   void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const;
   /// Only those of them that are wanted.
   /// @param is_wanted  asked by several threads at the same time
-  /// @param ranks      have the same boxes: each looks for a share, and all get all; null: there is
-  ///                   this process alone
+  /// @param share      looks only there
   void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
                   const std::function<bool(const IndexPair&)>& is_wanted,
-                  Ranks* ranks = nullptr) const;
+                  const SearchShare& share = {}) const;
 
   /// All pairs of a box of this (a) and an overlapping box of the other (b), each once, in order.
   /// Replaces what pairs held.

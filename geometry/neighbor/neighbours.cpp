@@ -91,7 +91,7 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   });
   fit(sphere_tree_);
   const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
-  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near), ranks_);
+  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near), share_);
 
   boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {

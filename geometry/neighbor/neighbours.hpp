@@ -40,8 +40,8 @@ class Neighbours {
   /// Pairs within a group are not listed. To be called before the first update.
   void leave_out(ExclusionGroups groups) { groups_ = std::move(groups); }
 
-  /// From now on ranks share the search; all of them have all lists. @param ranks  outlives this
-  void share_among(Ranks& ranks) noexcept { ranks_ = &ranks; }
+  /// From now on finds pairs of spheres in a share of all that there is. All else is whole.
+  void take_share(const SearchShare& share) noexcept { share_ = share; }
 
   /// From now on chooses the skin anew whenever the lists are made, from how many steps the last
   /// ones lasted: the one for which the lists and the pairs in them, which grow with the skin, cost
@@ -82,7 +82,7 @@ class Neighbours {
   /// How often the lists were made.
   std::int64_t rebuild_count() const noexcept { return rebuild_count_; }
 
-  /// Pairs of spheres, sorted.
+  /// Pairs of spheres, sorted; those of the share that is taken.
   std::span<const IndexPair> sphere_pairs() const noexcept { return sphere_pairs_; }
   std::size_t sphere_count() const noexcept { return spheres_.size(); }
 
@@ -105,7 +105,7 @@ class Neighbours {
 
   std::span<const Sphere> spheres_;
   const Surface* surface_;
-  Ranks* ranks_ = nullptr;  ///< null: there is this process alone
+  SearchShare share_;
   Skin skin_;
   double reach_;
   ExclusionGroups groups_;

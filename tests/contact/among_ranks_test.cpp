@@ -49,6 +49,9 @@ class ShakenSpheres {
     planes_.push_back({Vec3(-0.48, 0, 0), Vec3::UnitX(), Vec3(0, 2, 0), MaterialId{1}});
   }
 
+  /// From here on the last spheres are far from all others: those before them fill one block.
+  void scatter(bool are_scattered) { are_scattered_ = are_scattered; }
+
   /// @returns a hash of all that can be seen of a step
   std::uint64_t step(int number, bool looks) {
     const double dt = 1e-3;
@@ -59,6 +62,9 @@ class ShakenSpheres {
       x_[i] += (phase - phase * phase) * way_[i];
       v[i] = 50.0 * (1.0 - 2.0 * phase) * way_[i];
     }
+    constexpr std::size_t kOfOneBlock = 1200;
+    for (std::size_t i = kOfOneBlock; are_scattered_ && i < x_.size(); ++i)
+      x_[i] += Vec3(2.0 * static_cast<double>(i), 0, 50);
     contacts_->advance({x_, v, spin_}, planes_, dt, pool_, forces_);
     if (SharedMotion* const shared = contacts_->shared_motion())
       shared->tell_all({x_, v, spin_, orientation_, forces_.force, forces_.torque});
@@ -110,6 +116,7 @@ class ShakenSpheres {
   std::unique_ptr<Contacts> contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
+  bool are_scattered_ = false;
 };
 
 constexpr int kPerSide = 12;  // 1728 spheres: eight blocks
@@ -132,6 +139,17 @@ std::vector<std::uint64_t> hashes_of_many(const ContactModel& model) {
   constexpr int kMany = 24;  // 13824 spheres, of which each has some 450 bytes
   ShakenSpheres spheres(kMany, model, 1);
   return {spheres.step(0, true), spheres.step(1, true)};
+}
+
+/// Of steps between which there are several blocks, then one, then several again.
+std::vector<std::uint64_t> hashes_of_scattered(const ContactModel& model) {
+  ShakenSpheres spheres(11, model, 1);  // 1331
+  std::vector<std::uint64_t> all;
+  for (int step = 0; step < 9; ++step) {
+    spheres.scatter(step / 3 == 1);
+    all.push_back(spheres.step(step, step % 2 == 0));
+  }
+  return all;
 }
 
 /// With one law, and with pairs of materials of different ones.
@@ -174,6 +192,18 @@ TEST(AmongRanks, HaveThemWhereWhatTheyRememberGoesIntoSeveralMessages) {
     const std::lock_guard lock(mutex);
     EXPECT_EQ(together, alone) << "rank " << ranks.rank();
   });
+}
+
+TEST(AmongRanks, HaveThemWhereThereIsNothingToShareForAWhile) {
+  for (const ContactModel& model : models()) {
+    const std::vector<std::uint64_t> alone = hashes_of_scattered(model);
+    std::mutex mutex;
+    test::ThreadRanks(3, true).run([&](geometry::Ranks& ranks) {
+      const std::vector<std::uint64_t> together = hashes_of_scattered(among_ranks(model, ranks));
+      const std::lock_guard lock(mutex);
+      EXPECT_EQ(together, alone) << "rank " << ranks.rank();
+    });
+  }
 }
 
 TEST(AmongRanks, TellWhatEachDoesAlone) {

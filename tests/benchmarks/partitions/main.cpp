@@ -155,8 +155,7 @@ struct BlockedBed {
     blocks.assign(bed.pairs, bed.spheres, {}, pool, bed.x);
     std::printf("%zu spheres, %zu pairs, %zu blocks\n", spheres, bed.pairs.size(),
                 blocks.blocks().size());
-    for (std::size_t k = 0; k < blocks.blocks().size(); ++k)
-      work.push_back(contact::SharedBlocks::work_of(blocks, blocks.blocks()[k]));
+    work.assign(blocks.work().begin(), blocks.work().end());
     block_of.resize(spheres);
     for (std::size_t k = 0; k < work.size(); ++k)
       for (const SphereBlocks::Member& sphere : blocks.owned(blocks.blocks()[k]))

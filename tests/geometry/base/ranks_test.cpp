@@ -66,5 +66,51 @@ TEST(Ranks, KnowWhetherAnyOfThemSaysYes) {
   }
 }
 
+struct Letter {
+  std::int64_t from;
+  std::int64_t number;
+  friend bool operator==(const Letter&, const Letter&) = default;
+};
+
+/// So many that no two ranks have as many, and one has none.
+std::vector<Letter> letters_of(int rank) {
+  std::vector<Letter> letters;
+  for (std::int64_t n = 0; n < 7 * rank; ++n) letters.push_back({rank, n});
+  return letters;
+}
+
+TEST(Ranks, TellAllWhatEachHas) {
+  std::atomic<int> right = 0;
+  test::ThreadRanks(3).run([&](Ranks& ranks) {
+    const std::vector<Letter> own = letters_of(ranks.rank());
+    const ThingsOfRanks<Letter> all = told_to_all(ranks, std::span<const Letter>(own));
+    for (int rank = 0; rank < 3; ++rank)
+      right += std::ranges::equal(all.of(rank), letters_of(rank)) ? 1 : 0;
+    right +=
+        told_by_each(ranks, std::int64_t{5} + ranks.rank()) == std::vector<std::int64_t>{5, 6, 7};
+  });
+  EXPECT_EQ(right, 3 * 4);
+}
+
+TEST(Ranks, DealOutEachThingToOneRankInTheOrderOfWhoHadIt) {
+  const auto receiver = [](const Letter& letter) {
+    return static_cast<int>((letter.number * letter.number + letter.from) % 3);
+  };
+  std::atomic<int> right = 0;
+  std::atomic<std::size_t> received = 0;
+  test::ThreadRanks(3).run([&](Ranks& ranks) {
+    const std::vector<Letter> own = letters_of(ranks.rank());
+    const ThingsOfRanks<Letter> here = dealt_out(ranks, std::span<const Letter>(own), receiver);
+    for (int rank = 0; rank < 3; ++rank) {
+      std::vector<Letter> expected = letters_of(rank);
+      std::erase_if(expected, [&](const Letter& l) { return receiver(l) != ranks.rank(); });
+      right += std::ranges::equal(here.of(rank), expected) ? 1 : 0;
+    }
+    received += here.things.size();
+  });
+  EXPECT_EQ(right, 9);
+  EXPECT_EQ(received, 0U + 7U + 14U);
+}
+
 }  // namespace
 }  // namespace plekton::geometry::ranks_test
