@@ -162,7 +162,8 @@ class Contacts {
       Visit<NodeId, const geometry::CorePoint&, const PairSprings&, double, const TermPart&>;
   using VisitPlane = Visit<NodeId, std::size_t, const PairSprings&, double>;
 
-  /// Calls visit(a, b, springs, gap) for every touching pair of spheres, in the order of the list.
+  /// Calls visit(a, b, springs, gap) for every touching pair of spheres, in the order of the list. Of
+  /// ranks all have to ask for pairs of spheres, and each is told of all.
   virtual void for_each_sphere_pair(VisitSpheres visit) const = 0;
   /// The same for every listed pair that is nearer than a margin (m) with the nodes where they are
   /// now.
@@ -206,6 +207,7 @@ class Contacts {
   /// How often a list of pairs that may touch was made: what is not in one cannot touch before the
   /// next.
   virtual std::int64_t list_count() const noexcept = 0;
+  /// Of ranks each has found some of the pairs of spheres.
   virtual const geometry::Neighbours& neighbours() const noexcept = 0;
   virtual const geometry::CellNeighbours& cell_neighbours() const noexcept = 0;
 };

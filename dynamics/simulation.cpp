@@ -57,7 +57,7 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options,
 
 Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
                        const contact::ContactModel& model)
-    : scene_((check(scene), check(options, model), held_as_prescribed(std::move(scene)))),
+    : scene_((check(scene), check(options, model), to_compute_with(std::move(scene)))),
       scene_hash_(scene_hash(scene_)),
       motion_(options.motion),
       pool_(options.threads),

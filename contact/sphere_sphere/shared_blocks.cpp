@@ -114,7 +114,9 @@ void SharedBlocks::find_messages(SphereBlocks& blocks) {
     to[static_cast<std::size_t>(owner)].push_back(ghost);
     is_at_border[of.block] = 1;
   });
-  const auto of_others = geometry::dealt_out(*ranks_, std::span<const GhostOf>(told), owner_of);
+  const auto of_others =
+      is_worth_it() ? geometry::dealt_out(*ranks_, std::span<const GhostOf>(told), owner_of)
+                    : geometry::ThingsOfRanks<GhostOf>(std::vector<std::size_t>(to.size(), 0));
   sent_ = {};
   received_ = {};
   for (const std::vector<std::uint32_t>& ghosts : to) {

@@ -18,10 +18,10 @@ namespace plekton::contact {
 
 /// Which rank computes which blocks of spheres, and what ranks tell each other of them.
 ///
-/// A rank has whole blocks, and the pairs in them alone. So no sum is taken in another order than by one process: what a block
-/// adds to spheres of another block goes to the rank that has that one, which adds it in the order
-/// of the blocks as ever. Then all ranks are given the forces on all common spheres
-/// (shared_motion.hpp).
+/// A rank has whole blocks, and the pairs in them alone. So no sum is taken in another order than by
+/// one process: what a block adds to spheres of another block goes to the rank that has that one,
+/// which adds it in the order of the blocks as ever. Then all ranks are given the forces on all
+/// common spheres (shared_motion.hpp).
 class SharedBlocks {
  public:
   explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks), motion_(ranks) {}

@@ -48,7 +48,7 @@ class SharedMotion {
   /// Whether other nodes are kept than those that assign() knew of.
   bool is_due() const noexcept { return is_due_; }
 
-  /// Takes the blocks of a new list. All ranks have to know all nodes.
+  /// Takes the blocks of a new list, those of this rank at least. All ranks have to know all nodes.
   /// @param owners  by block
   /// @param met     nodes of spheres that something is near to that makes them common; may be
   ///                there several times

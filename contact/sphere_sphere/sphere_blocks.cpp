@@ -66,7 +66,7 @@ void SphereBlocks::fill_counted(std::span<const geometry::IndexPair> pairs,
   pairs_.clear();
   largest_member_count_ = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    if (owners.are_here(k))
+    if (owners.has(k))
       fill_block(k, pairs, spheres, kinds);
     else
       add_no_block();

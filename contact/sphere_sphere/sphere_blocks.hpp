@@ -26,7 +26,7 @@ struct BlockOwners {
   std::span<const int> of_blocks;  ///< rank by block; empty: this process computes all
   int self = 0;
 
-  bool are_here(std::size_t block) const noexcept {
+  bool has(std::size_t block) const noexcept {
     return of_blocks.empty() || of_blocks[block] == self;
   }
 };
@@ -90,7 +90,7 @@ class SphereBlocks {
     std::uint32_t a, b;
   };
 
-  /// A block, by the place of its first sphere in the order.
+  /// Where a block ends: the place after that of its last sphere in the order.
   struct Cut {
     std::uint64_t place;
     std::uint64_t pairs;  ///< before it
@@ -168,7 +168,7 @@ class SphereBlocks {
   }
   /// What each block costs, here or elsewhere, in pairs.
   std::span<const std::uint64_t> work() const noexcept { return work_; }
-  /// Over all blocks.
+  /// Over all blocks here.
   std::size_t member_count() const noexcept { return members_.size(); }
   /// The nodes, in order, that no block owns.
   std::span<const NodeRange> other_nodes() const noexcept { return other_nodes_; }
@@ -183,6 +183,7 @@ class SphereBlocks {
     return std::span(ranges_).subspan(block.first_range, block.range_count);
   }
   std::span<const Range> ranges() const noexcept { return ranges_; }
+  // Of blocks here.
   std::span<const Member> members(const Block& block) const noexcept {
     return {&members_[block.first_member], block.member_count};
   }
@@ -197,7 +198,7 @@ class SphereBlocks {
   /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
   std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
 
-  /// Calls visit(GhostOf, which ghost) for the ghosts of the blocks here, in the order of the blocks.
+  /// Calls visit(GhostOf, which ghost) for the ghosts of the blocks here, block by block.
   template <class Visit>
   void for_each_ghost_here(const Visit& visit) const {
     for (std::uint32_t k = 0; k < blocks_.size(); ++k) {

@@ -21,9 +21,13 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> pairs,
   std::vector<geometry::IndexPair> own;
   if (has_ranks()) pairs = own = shared_->deal_out(pairs, spheres, x, blocks_);
   find_old_slots(pairs);
-  std::vector<KeptPair> kept_elsewhere = dealt_out(kept(left_), were_shared_out);
-  make_room(keys_, pairs.size());
-  keys_.assign(pairs.begin(), pairs.end());
+  std::vector<KeptPair> moved = dealt_out(kept(left_), were_shared_out);
+  if (has_ranks()) {
+    keys_ = std::move(own);
+  } else {
+    make_room(keys_, pairs.size());
+    keys_.assign(pairs.begin(), pairs.end());
+  }
   find_kinds();
   if (has_ranks())
     shared_->fill(keys_, spheres, kinds_, pool, x, blocks_);
@@ -31,7 +35,7 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> pairs,
     blocks_.assign(keys_, spheres, kinds_, pool, x);
   table_.take(blocks_, kinds_of_list_, old_slots_);
   set_parameters();
-  return take_dealt_out(std::move(kept_elsewhere));
+  return take_dealt_out(std::move(moved));
 }
 
 /// Of those that touch.
@@ -58,7 +62,8 @@ std::vector<SphereContacts::KeptPair> SphereContacts::kept(
   return pairs;
 }
 
-/// What touches and has left the list of this rank goes to the rank on whose list it would be.
+/// What touches and has left the list of this rank goes to the rank on whose list it would be; to
+/// all, with whatever touches, where all have all pairs from now on.
 /// @param left  in order
 /// @returns what is to be found on this rank's new list, or is lost
 std::vector<SphereContacts::KeptPair> SphereContacts::dealt_out(std::vector<KeptPair> left,
@@ -149,7 +154,7 @@ void SphereContacts::find_kinds() {
     if (known == kinds.end()) {
       kinds.emplace_back(*law, true);
       known = kinds.end() - 1;
-      firsts.push_back(key);
+      if (is_shared_out()) firsts.push_back(key);
     }
     kinds_.push_back(static_cast<std::uint8_t>(known - kinds.begin()));
   }
@@ -231,7 +236,9 @@ std::optional<double> SphereContacts::gap_of_near(std::size_t i, double margin,
                                                   Positions x) const noexcept {
   const SphereBody &a = sphere(keys_[i].a), &b = sphere(keys_[i].b);
   const double touch = a.radius + b.radius;
-  const double range = touch + margin + AnyLaw::interaction_range(parameters(keys_[i], i));
+  double range = touch + margin;
+  if (materials_->may_act_at_a_distance())
+    range += AnyLaw::interaction_range(parameters(keys_[i], i));
   const double squared = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm();
   return squared < range * range ? std::optional(std::sqrt(squared) - touch) : std::nullopt;
 }
@@ -386,22 +393,25 @@ void SphereContacts::exchange(const geometry::StateArchive& archive,
     pairs = kept_pairs();
   }
   std::size_t place = 0;
+  geometry::IndexPair last{-1, -1};
   bool is_unlisted = false;
   archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& pair) {
     exchange_pair(row, pair);
-    if (!row.is_reading() || is_of_other_rank(pair.key())) return;
-    place = place_of(pair.key(), place);
-    if (place == keys_.size() || keys_[place] != pair.key()) {
+    if (!row.is_reading()) return;
+    const geometry::IndexPair key = pair.key();
+    is_unlisted = is_unlisted || !(last < key);
+    last = key;
+    if (is_unlisted || is_of_other_rank(key)) return;
+    place = place_of(key, place);
+    if (place == keys_.size() || keys_[place] != key) {
       is_unlisted = true;
       return;
     }
-    if (pair.id != 0) numbers_.add(pair.key(), pair.id);
+    if (pair.id != 0) numbers_.add(key, pair.id);
     keep(pair, place);
-    ++place;  // each pair touches once
   });
   if (!archive.is_reading()) return;
-  if (is_shared_out()) is_unlisted = any_rank(shared_->ranks(), is_unlisted);
-  if (is_unlisted) throw_unlisted_contact();
+  if (is_true_anywhere(is_unlisted)) throw_unlisted_contact();
   totals_ = {};
   totals_.touching = pairs.size();
   totals_.largest_ratio = overlap_ratio;
@@ -412,6 +422,7 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
   keys_.clear();
   list();
   numbers_ = {};
+  bool had_other_law = false;
   std::uint64_t touching = 0;
   std::size_t place = 0;
   for (KeptPair& pair : before.kept_pairs()) {
@@ -420,11 +431,15 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
     if (key.a < 0 || key.b < 0 || is_of_other_rank(key)) continue;
     place = place_of(key, place);
     if (place == keys_.size() || keys_[place] != key) continue;
-    require_same_law(pair.memory.history, &law_of(key));
+    if (is_other_law(pair.memory.history, &law_of(key))) {
+      had_other_law = true;
+      continue;
+    }
     if (pair.id != 0) numbers_.add(key, pair.id);
     keep(pair, place);
     ++touching;
   }
+  if (is_true_anywhere(had_other_law)) throw_other_law();
   if (is_shared_out()) {
     const std::vector<std::uint64_t> of_ranks = told_by_each(shared_->ranks(), touching);
     touching = std::accumulate(of_ranks.begin(), of_ranks.end(), std::uint64_t{0});
@@ -444,6 +459,11 @@ std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
 /// @returns where in the list it is, if it is there
 std::size_t SphereContacts::place_of(const geometry::IndexPair& key, std::size_t from) const {
   return next_place(from, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
+}
+
+/// What only the rank that has a pair can see, all have to fail of.
+bool SphereContacts::is_true_anywhere(bool is_true_here) const {
+  return is_shared_out() ? any_rank(shared_->ranks(), is_true_here) : is_true_here;
 }
 
 bool SphereContacts::is_of_other_rank(const geometry::IndexPair& key) const {

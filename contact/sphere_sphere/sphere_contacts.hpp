@@ -137,6 +137,7 @@ class SphereContacts {
   KeptPair kept_pair(std::size_t i, PairNumbers::Reader& numbers) const;
   std::vector<KeptPair> kept_pairs() const;
   std::size_t place_of(const geometry::IndexPair& key, std::size_t from) const;
+  bool is_true_anywhere(bool is_true_here) const;
   bool is_of_other_rank(const geometry::IndexPair& key) const;
   void exchange_pair(geometry::RowFields& row, KeptPair& pair) const;
   void keep(const KeptPair& pair, std::size_t place);

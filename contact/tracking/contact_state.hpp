@@ -113,12 +113,19 @@ std::size_t next_place(std::size_t from, std::size_t count, IsBefore is_before) 
   return from;
 }
 
-/// @throws geometry::StateMismatch if a history is that of another law
-inline void require_same_law(const AnyLaw::History& history, const AnyLaw::Functions* law) {
-  if (history.law == nullptr || history.law == law) return;
+/// Whether a history is that of another law.
+inline bool is_other_law(const AnyLaw::History& history, const AnyLaw::Functions* law) noexcept {
+  return history.law != nullptr && history.law != law;
+}
+[[noreturn]] inline void throw_other_law() {
   throw geometry::StateMismatch(
       "bodies that touch had another contact law before; what they remember means nothing to this "
       "one");
+}
+
+/// @throws geometry::StateMismatch if a history is that of another law
+inline void require_same_law(const AnyLaw::History& history, const AnyLaw::Functions* law) {
+  if (is_other_law(history, law)) throw_other_law();
 }
 
 [[noreturn]] inline void throw_unlisted_contact() {

@@ -119,6 +119,17 @@ Scene held_as_prescribed(Scene scene) {
   return scene;
 }
 
+Scene to_compute_with(Scene scene) {
+  scene = held_as_prescribed(std::move(scene));
+  const auto shrink = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
+  shrink(scene.state.position, scene.state.velocity, scene.state.angular_velocity,
+         scene.state.orientation, scene.properties.mass, scene.properties.inertia,
+         scene.properties.held, scene.elements.spheres, scene.elements.cylinders,
+         scene.elements.facets, scene.bonds, scene.sheet_facets, scene.sphere_materials,
+         scene.cylinder_materials, scene.facet_materials);
+  return scene;
+}
+
 double kinetic_energy(const NodeState& state, const NodeProperties& properties) {
   double energy = 0.0;
   for (std::size_t i = 0; i < state.size(); ++i) {

@@ -51,6 +51,9 @@ std::vector<Held> held_with_loads(const Scene& scene);
 /// The scene with prescribed motions held.
 Scene held_as_prescribed(Scene scene);
 
+/// The same, without the room that lists have which have grown: up to as much again.
+Scene to_compute_with(Scene scene);
+
 /// J, of what is free; of rigid bodies the translation alone.
 double kinetic_energy(const NodeState& state, const NodeProperties& properties);
 

@@ -22,12 +22,7 @@ std::vector<int> Ranks::ranges_of_equal_work(std::span<const std::uint64_t> work
 }
 
 bool any_rank(Ranks& ranks, bool says) {
-  const auto count = static_cast<std::size_t>(ranks.count());
-  std::vector<std::uint64_t> said(count, 0);
-  said[static_cast<std::size_t>(ranks.rank())] = says ? 1 : 0;
-  ranks.gather(std::as_writable_bytes(std::span(said)),
-               std::vector<std::size_t>(count, sizeof(std::uint64_t)));
-  return std::any_of(said.begin(), said.end(), [](std::uint64_t one) { return one != 0; });
+  return std::ranges::max(told_by_each(ranks, std::uint64_t{says})) != 0;
 }
 
 }  // namespace plekton::geometry

@@ -14,7 +14,8 @@
 namespace plekton::geometry {
 
 /// Processes that compute one scene together. All of them have all of it and make the same calls in
-/// the same order; work that is shared out is done by one of them, and told to the others.
+/// the same order; work that is shared out is done by one of them, which tells the others what they
+/// need of it.
 ///
 /// Sizes are in bytes and multiples of kUnit. Each function is called by all ranks, from one thread.
 class Ranks {
@@ -22,7 +23,7 @@ class Ranks {
   static constexpr std::size_t kUnit = sizeof(std::uint64_t);
   /// Bytes that what is told to all at a time should take about: what is more is told in pieces,
   /// so that a rank needs little more memory than one process.
-  static constexpr std::size_t kUsualRoom = std::size_t{4} << 20;
+  static constexpr std::size_t kUsualRoom = std::size_t{1} << 20;
 
   Ranks() = default;
   Ranks(const Ranks&) = delete;
@@ -131,11 +132,12 @@ ThingsOfRanks<Thing> dealt_out(Ranks& ranks, std::span<const Thing> things,
   std::vector<Thing*> next;
   for (int rank = 0; rank < ranks.count(); ++rank) next.push_back(sent.of(rank).data());
   for (const Thing& thing : things) *next[static_cast<std::size_t>(receiver(thing))]++ = thing;
-  const std::vector<std::size_t> of_all =
-      told_to_all(ranks, std::span<const std::size_t>(counts)).things;
-  for (std::size_t rank = 0; rank < count; ++rank)
-    counts[rank] = of_all[rank * count + static_cast<std::size_t>(ranks.rank())];
-  ThingsOfRanks<Thing> received(std::move(counts));
+  std::vector<std::size_t> to_come(count, 0);
+  const std::vector<std::size_t> units(count, sizeof(std::size_t));
+  ranks.begin_exchange(std::as_bytes(std::span(counts)), units,
+                       std::as_writable_bytes(std::span(to_come)), units);
+  ranks.end_exchange();
+  ThingsOfRanks<Thing> received(std::move(to_come));
   ranks.begin_exchange(std::as_bytes(std::span(sent.things)), sent.sizes(),
                        std::as_writable_bytes(std::span(received.things)), received.sizes());
   ranks.end_exchange();

@@ -88,7 +88,9 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
 
   static bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) { return geometry::overlap(p, q); }
 
-  void rebuild(std::span<const Box> boxes) {
+  // Boxes are a list of them, or SphereBoxes.
+  template <class Boxes>
+  void rebuild(const Boxes& boxes) {
     box_count_ = boxes.size();
     order_.resize(boxes.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -100,7 +102,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     follow(boxes);
   }
 
-  void follow(std::span<const Box> boxes) {
+  template <class Boxes>
+  void follow(const Boxes& boxes) {
     for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) set_boxes(leaf, boxes);
     refit();
   }
@@ -125,7 +128,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
 
   /// A tree over the boxes [begin, end) of the order, halved near the median centre along the
   /// widest axis, so that whole bunches remain; returns its top.
-  std::size_t split(std::size_t begin, std::size_t end, std::span<const Box> boxes) {
+  template <class Boxes>
+  std::size_t split(std::size_t begin, std::size_t end, const Boxes& boxes) {
     if (end - begin <= kInBunch) return make_bunch(begin, end);
     const std::size_t bunches = (end - begin + kInBunch - 1) / kInBunch;
     const std::size_t middle = begin + bunches / 2 * kInBunch;
@@ -160,7 +164,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     return bounded_below(box.lower[axis]) + bounded_above(box.upper[axis]);
   }
 
-  int widest_axis(std::size_t begin, std::size_t end, std::span<const Box> boxes) const {
+  template <class Boxes>
+  int widest_axis(std::size_t begin, std::size_t end, const Boxes& boxes) const {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::max());
     Vec3 upper = -lower;
     for (std::size_t k = begin; k < end; ++k) {
@@ -174,7 +179,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     return axis;
   }
 
-  void set_boxes(std::size_t leaf, std::span<const Box> boxes) {
+  template <class Boxes>
+  void set_boxes(std::size_t leaf, const Boxes& boxes) {
     BoxLanes& bunch = bunches_[leaf];
     nodes[leaf].bv = fcl::AABBd();
     for (std::size_t lane = 0; lane < kInBunch && bunch.index[lane] >= 0; ++lane) {
@@ -292,11 +298,26 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::rebuild(std::span<const Box> boxes) {
+  rebuild_of(boxes);
+}
+void BroadPhase::rebuild(const SphereBoxes& boxes) {
+  rebuild_of(boxes);
+}
+void BroadPhase::refit(std::span<const Box> boxes) {
+  refit_of(boxes);
+}
+void BroadPhase::refit(const SphereBoxes& boxes) {
+  refit_of(boxes);
+}
+
+template <class Boxes>
+void BroadPhase::rebuild_of(const Boxes& boxes) {
   assert(boxes.size() <= std::size_t{1} << 30);  // Indices of pairs are 32-bit.
   implementation_->tree.rebuild(boxes);
 }
 
-void BroadPhase::refit(std::span<const Box> boxes) {
+template <class Boxes>
+void BroadPhase::refit_of(const Boxes& boxes) {
   if (boxes.size() != size()) {
     throw std::invalid_argument("BroadPhase::refit: got " + std::to_string(boxes.size()) +
                                 " boxes, expected " + std::to_string(size()) +

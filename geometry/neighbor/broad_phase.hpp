@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/base/thread_pool.hpp"
-#include "geometry/primitives/box.hpp"
+#include "geometry/primitives/sphere.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -52,11 +52,13 @@ class BroadPhase {
 
   /// Takes up to 2^30 boxes, also none. A box's place in the span is its index from now on.
   void rebuild(std::span<const Box> boxes);
+  void rebuild(const SphereBoxes& boxes);
 
   /// Moves the boxes, any way and any distance. Several times cheaper than rebuild, but the further
   /// boxes have wandered among each other since then, the longer finding their pairs takes.
   /// @throws std::invalid_argument if the number of boxes is not the one of the last rebuild.
   void refit(std::span<const Box> boxes);
+  void refit(const SphereBoxes& boxes);
 
   /// Number of boxes.
   std::size_t size() const noexcept;
@@ -80,6 +82,11 @@ class BroadPhase {
   void query(const Box& box, std::vector<std::int32_t>& indices) const;
 
  private:
+  template <class Boxes>
+  void rebuild_of(const Boxes& boxes);
+  template <class Boxes>
+  void refit_of(const Boxes& boxes);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -75,21 +75,18 @@ void Neighbours::choose_skin() {
   skin_.set(std::clamp(near, 0.02 * usual_radius_, 0.8 * usual_radius_));
 }
 
-void Neighbours::fit(BroadPhase& tree) {
-  if (tree.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
-    tree.refit(boxes_);
+template <class Boxes>
+void Neighbours::fit(BroadPhase& tree, const Boxes& boxes) {
+  if (tree.size() == boxes.size() && rebuild_count_ % kListsPerTree != 0) {
+    tree.refit(boxes);
   } else {
-    tree.rebuild(boxes_);
+    tree.rebuild(boxes);
   }
 }
 
 void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   const double margin = skin_.margin() + 0.5 * reach_;
-  boxes_.resize(spheres_.size());
-  pool.for_each_range(spheres_.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) boxes_[i] = box(spheres_[i], x, margin);
-  });
-  fit(sphere_tree_);
+  fit(sphere_tree_, SphereBoxes(spheres_, x, margin));
   const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
   sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near), share_);
 
@@ -102,7 +99,7 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
     const double radius = surface_->radius(surface_->structure_of(cell));
     boxes_.push_back(bounding_box({corners.data(), count}, radius + margin));
   }
-  fit(cell_tree_);
+  fit(cell_tree_, std::span<const Box>(boxes_));
   sphere_tree_.pairs_with(cell_tree_, sphere_cells_);
   if (!groups_.empty()) {
     std::erase_if(sphere_cells_, [&](const IndexPair& pair) {

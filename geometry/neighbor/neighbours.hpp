@@ -96,7 +96,8 @@ class Neighbours {
  private:
   void choose_skin();
   void rebuild(Positions x, ThreadPool& pool);
-  void fit(BroadPhase& tree);
+  template <class Boxes>
+  void fit(BroadPhase& tree, const Boxes& boxes);
   /// Of the spheres whose boxes overlap, those whose surfaces are at most the skin apart: as no
   /// centre moves by more than half the skin, no others can touch. A third fewer pairs to look at
   /// in every step of a dense bed.
@@ -111,7 +112,7 @@ class Neighbours {
   ExclusionGroups groups_;
   BroadPhase sphere_tree_;
   BroadPhase cell_tree_;
-  std::vector<Box> boxes_;
+  std::vector<Box> boxes_;  ///< of cells
   std::vector<IndexPair> sphere_pairs_;
   std::vector<IndexPair> sphere_cells_;
   std::vector<IndexPair> sphere_structures_;

@@ -4,7 +4,9 @@
 #include "geometry/primitives/box.hpp"
 
 #include <array>
+#include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace plekton::geometry {
 
@@ -23,6 +25,22 @@ inline std::array<Vec3, 1> core(const Sphere& sphere, Positions x) noexcept {
 inline Box box(const Sphere& sphere, Positions x, double margin = 0.0) noexcept {
   return bounding_box(core(sphere, x), sphere.radius + margin);
 }
+
+/// The boxes of many spheres, each found where it is asked for.
+class SphereBoxes {
+ public:
+  /// @param margin  m, as box() has it
+  SphereBoxes(std::span<const Sphere> spheres, Positions x, double margin) noexcept
+      : spheres_(spheres), x_(x), margin_(margin) {}
+
+  std::size_t size() const noexcept { return spheres_.size(); }
+  Box operator[](std::size_t i) const noexcept { return box(spheres_[i], x_, margin_); }
+
+ private:
+  std::span<const Sphere> spheres_;
+  Positions x_;
+  double margin_;
+};
 
 /// Volume (m³).
 inline double volume(const Sphere& sphere) noexcept {

@@ -3,8 +3,11 @@
 // records with their numbers.
 #include "contact/among_ranks.hpp"
 
+#include "contact/law/cohesive_frictional.hpp"
+#include "contact/law/hertz_mindlin.hpp"
 #include "contact/models.hpp"
 #include "contact/sphere_sphere/shared_motion.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/thread_ranks.hpp"
 
@@ -14,6 +17,7 @@
 #include <bit>
 #include <mutex>
 #include <set>
+#include <span>
 #include <vector>
 
 namespace plekton::contact::among_ranks_test {
@@ -34,6 +38,7 @@ class ShakenSpheres {
           spin_.push_back(random.in_cube(2.0));
           materials_.push_back(MaterialId{random.uniform(0.0, 1.0) < 0.3 ? 1 : 0});
         }
+    surface_ = geometry::Surface({}, {}, at_rest_.size());
     contacts_ = model({.spheres = spheres_,
                        .surface = surface_,
                        .materials = {Material{1e6, 0.5, 0.4}, Material{3e6, 0.3, 0.2}},
@@ -94,6 +99,13 @@ class ShakenSpheres {
     add_vector(contacts_->on_plane(0).moment);
     add(contacts_->on_plane(1).push);
     add(contacts_->elastic_energy());
+    const auto add_pair = [&](NodeId a, NodeId b, const PairSprings& springs, double gap) {
+      add(static_cast<double>(7 * index_of(a) + index_of(b)));
+      add(springs.stiffness(gap).normal);
+      add(gap);
+    };
+    contacts_->for_each_sphere_pair(add_pair);
+    contacts_->for_each_near_sphere_pair(0.02, x_, add_pair);
     contacts_->assign_ids();
     contacts_->for_each_record(x_, [&](const ContactRecord& row) {
       add(static_cast<double>(row.id));
@@ -101,6 +113,10 @@ class ShakenSpheres {
       add_vector(row.force());
     });
     return hash;
+  }
+
+  void exchange(const geometry::StateArchive& archive) {
+    contacts_->exchange(archive, planes_, pool_);
   }
 
   std::int64_t list_count() const { return contacts_->list_count(); }
@@ -152,10 +168,33 @@ std::vector<std::uint64_t> hashes_of_scattered(const ContactModel& model) {
   return all;
 }
 
+constexpr int kStepOfState = 13;
+
+/// What a state has after some steps.
+geometry::StateTree state_of(const ContactModel& model) {
+  ShakenSpheres spheres(kPerSide, model, 1);
+  for (int step = 0; step < kStepOfState; ++step) spheres.step(step, looks_after(step));
+  geometry::StateTree tree;
+  spheres.exchange(geometry::StateArchive::writer(tree));
+  return tree;
+}
+
+/// Of the steps that go on from there.
+std::vector<std::uint64_t> hashes_from(const geometry::StateTree& state,
+                                       const ContactModel& model) {
+  ShakenSpheres spheres(kPerSide, model, 1);
+  spheres.exchange(geometry::StateArchive::reader(state));
+  std::vector<std::uint64_t> all;
+  for (int step = kStepOfState; step < kStepOfState + 12; ++step)
+    all.push_back(spheres.step(step, looks_after(step)));
+  return all;
+}
+
 /// With one law, and with pairs of materials of different ones.
 std::vector<ContactModel> models() {
   PairProperties<AnyLaw> mixed;
-  mixed[{MaterialId{0}, MaterialId{1}}] = AnyLaw::of<LinearFrictional>();
+  mixed[{MaterialId{0}, MaterialId{1}}] = AnyLaw::of<HertzMindlin>();
+  mixed[{MaterialId{1}, MaterialId{1}}] = AnyLaw::of<CohesiveFrictional>();
   return {linear_frictional(), any_law(mixed, AnyLaw::of<LinearFrictional>())};
 }
 
@@ -200,6 +239,30 @@ TEST(AmongRanks, HaveThemWhereThereIsNothingToShareForAWhile) {
     std::mutex mutex;
     test::ThreadRanks(3, true).run([&](geometry::Ranks& ranks) {
       const std::vector<std::uint64_t> together = hashes_of_scattered(among_ranks(model, ranks));
+      const std::lock_guard lock(mutex);
+      EXPECT_EQ(together, alone) << "rank " << ranks.rank();
+    });
+  }
+}
+
+TEST(AmongRanks, GoOnFromAStateOfAnyNumberOfRanks) {
+  for (const ContactModel& model : models()) {
+    const geometry::StateTree of_one = state_of(model);
+    const std::vector<std::uint64_t> alone = hashes_from(of_one, model);
+    const std::vector<std::uint64_t> all = hashes(model);
+    EXPECT_TRUE(std::ranges::equal(alone, std::span(all).subspan(kStepOfState, alone.size())));
+    std::mutex mutex;
+    geometry::StateTree of_ranks;
+    test::ThreadRanks(3).run([&](geometry::Ranks& ranks) {
+      const std::vector<std::uint64_t> together = hashes_from(of_one, among_ranks(model, ranks));
+      geometry::StateTree state = state_of(among_ranks(model, ranks));
+      const std::lock_guard lock(mutex);
+      EXPECT_EQ(together, alone) << "rank " << ranks.rank();
+      if (ranks.rank() == 1) of_ranks = std::move(state);
+    });
+    EXPECT_EQ(hashes_from(of_ranks, model), alone);
+    test::ThreadRanks(5, true).run([&](geometry::Ranks& ranks) {
+      const std::vector<std::uint64_t> together = hashes_from(of_ranks, among_ranks(model, ranks));
       const std::lock_guard lock(mutex);
       EXPECT_EQ(together, alone) << "rank " << ranks.rank();
     });

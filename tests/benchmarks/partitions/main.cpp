@@ -33,7 +33,7 @@ using geometry::Vec3;
 constexpr std::uint64_t kSumBytes = 48;     // of a ghost of a block, to its owner
 constexpr std::uint64_t kMotionBytes = 72;  // of a private sphere, to a rank that has it as a ghost
 constexpr std::uint64_t kNodeBytes = 152;   // of a private sphere, to all ranks at a new list
-constexpr std::uint64_t kPairBytes = 8;     // of a pair found, likewise
+constexpr std::uint64_t kPairBytes = 16;    // of a pair found, to who counts it and to who has it
 /// Of a rank, to all: what its contacts between spheres and with planes came to, and its motion.
 constexpr std::uint64_t kTotalBytes = 2 * sizeof(contact::BlockTotals) + sizeof(dynamics::StepSums);
 constexpr int kStepsBetweenLists = 100;  // as in the bed of docs/howto/many_ranks.md
@@ -88,14 +88,14 @@ void print_head(const char* things) {
               "imbalance");
 }
 
-/// What all parts tell all at a new list, in bytes.
+/// What a part takes of all others at a new list, in bytes, if all the pairs that it has were found
+/// by others.
 double list_bytes(const std::vector<Part>& parts, std::uint64_t things) {
-  double pairs = 0.0;
-  for (const Part& part : parts) pairs += static_cast<double>(part.work());
+  const double pairs = mean(parts, [](const Part& part) { return part.work(); });
   return kNodeBytes * static_cast<double>(things) + kPairBytes * pairs;
 }
 
-/// @param bytes_of_list  that are told to all at a new list
+/// @param bytes_of_list  that are taken at a new list
 void print_row(const std::vector<Part>& parts, double bytes_of_list) {
   const auto ghosts = [](const Part& part) { return part.ghosts; };
   const auto things = [](const Part& part) { return part.things; };
