@@ -113,7 +113,7 @@ class Rank {
   }
 
  private:
-  /// At a new list all spheres and pairs go to all: 2 GB for ten million spheres, which is taken to
+  /// At a new list all spheres go to all: 1.5 GB for ten million spheres, which is taken to
   /// come as fast as a link can bring it.
   void take_lists() { compute(parts_.list_bytes / (parts_.steps_between_lists * kBandwidth)); }
 
