@@ -138,7 +138,7 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
       return order_.begin() + static_cast<std::ptrdiff_t>(k);
     };
     const auto place = [&](std::int32_t i) {
-      return twice_centre(boxes[static_cast<std::size_t>(i)], axis);
+      return twice_centre(boxes, static_cast<std::size_t>(i), axis);
     };
     std::nth_element(at(begin), at(middle), at(end),
                      [&](std::int32_t i, std::int32_t j) { return place(i) < place(j); });
@@ -160,8 +160,12 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     return leaf;
   }
 
-  static double twice_centre(const Box& box, int axis) {
-    return bounded_below(box.lower[axis]) + bounded_above(box.upper[axis]);
+  static double twice_centre(std::span<const Box> boxes, std::size_t i, int axis) {
+    return bounded_below(boxes[i].lower[axis]) + bounded_above(boxes[i].upper[axis]);
+  }
+  static double twice_centre(const SphereBoxes& boxes, std::size_t i, int axis) {
+    const double centre = boxes.centre(i)[axis];
+    return bounded_below(centre) + bounded_above(centre);
   }
 
   template <class Boxes>
@@ -169,8 +173,9 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::max());
     Vec3 upper = -lower;
     for (std::size_t k = begin; k < end; ++k) {
-      const Box& box = boxes[static_cast<std::size_t>(order_[k])];
-      const Vec3 centre(twice_centre(box, 0), twice_centre(box, 1), twice_centre(box, 2));
+      const auto i = static_cast<std::size_t>(order_[k]);
+      const Vec3 centre(twice_centre(boxes, i, 0), twice_centre(boxes, i, 1),
+                        twice_centre(boxes, i, 2));
       lower = lower.cwiseMin(centre);
       upper = upper.cwiseMax(centre);
     }

@@ -35,6 +35,8 @@ class SphereBoxes {
 
   std::size_t size() const noexcept { return spheres_.size(); }
   Box operator[](std::size_t i) const noexcept { return box(spheres_[i], x_, margin_); }
+  /// m, without the work of a box, whose sides are rounded outwards.
+  const Vec3& centre(std::size_t i) const noexcept { return x_[index_of(spheres_[i].nodes[0])]; }
 
  private:
   std::span<const Sphere> spheres_;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How fast many ranks would be on a cluster that SimGrid imagines: steps of 10 million spheres in a box, of which plekton-bench-partitions
-counts what each rank computes and tells. Two ways: "today", as ranks share the work now, and "planned", where lists are shared
-out too. Before that it prints what was counted.
+counts what each rank computes and tells. Two ways: "whole", with lists made whole by every rank, and "planned", where each is told of
+spheres near it alone. Before that it prints what was counted.
 
 Usage: python3 simulate.py PLEKTON-BENCH-PARTITIONS [--spheres 10000000] [--ranks 8 64 256 512]
 
@@ -54,7 +54,7 @@ def main():
         program = folder / "simulated"
         subprocess.run(["smpicxx", "-std=c++20", "-O2", Path(__file__).with_name("simulated.cpp"), "-o", program], check=True)
         print("\nranks      way  ms of one  ms a step  efficiency")
-        for way in ("today", "planned"):
+        for way in ("whole", "planned"):
             for ranks in asked.ranks:
                 one, step, efficiency = simulated(program, folder / f"{ranks}.txt", ranks, way, folder)
                 print(f"{ranks:5} {way:>8} {one:10.1f} {step:10.3f} {efficiency:11.3f}", flush=True)

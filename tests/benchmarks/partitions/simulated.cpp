@@ -3,7 +3,7 @@
 // counted for it, computes for as long as that would take, and sends messages of those sizes.
 // simulate.py compiles and starts it; the build of the project does not.
 //
-// Usage: simulated PARTS today|planned
+// Usage: simulated PARTS whole|planned
 #include <mpi.h>
 #include <smpi/smpi.h>
 
