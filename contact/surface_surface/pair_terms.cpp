@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/pair_terms.hpp"
 
+#include "contact/surface_surface/nearest.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -60,7 +62,7 @@ std::array<geometry::FeatureNodes, 2> PairTerms::witness_features(
 }
 
 void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
-  const geometry::ProductFeatures features = geometry::product_features(*surface_, pairs);
+  const geometry::ProductFeatures& features = features_.find(*surface_, pairs);
   terms_.clear();
   holders_.clear();
   first_holders_.clear();
@@ -107,9 +109,9 @@ void PairTerms::list_terms_of_pairs() {
   for (const Holder& holder : holders_) ++first_terms_[holder.pair + 1];
   std::inclusive_scan(first_terms_.begin(), first_terms_.end(), first_terms_.begin());
   terms_of_pairs_.resize(holders_.size());
-  std::vector<std::uint32_t> next(first_terms_);
+  next_terms_ = first_terms_;
   for (std::uint32_t i = 0; i < terms_.size(); ++i) {
-    for (const Holder& holder : holders(terms_[i])) terms_of_pairs_[next[holder.pair]++] = i;
+    for (const Holder& holder : holders(terms_[i])) terms_of_pairs_[next_terms_[holder.pair]++] = i;
   }
 }
 

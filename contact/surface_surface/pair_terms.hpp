@@ -9,6 +9,7 @@
 #include "contact/surface_surface/term_parts.hpp"
 #include "contact/surface_surface/wrapped_joints.hpp"
 #include "geometry/base/thread_pool.hpp"
+#include "geometry/critical/product_features.hpp"
 
 #include <array>
 #include <cstdint>
@@ -167,6 +168,7 @@ class PairTerms {
   void tilt(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x);
 
   const geometry::Surface* surface_;
+  geometry::ProductFeatureFinder features_;
   std::vector<PairTerm> terms_;
   std::vector<Holder> holders_;
   WrappedJoints joints_;
@@ -177,6 +179,7 @@ class PairTerms {
   std::vector<std::uint32_t> term_of_pair_;    ///< of both cells
   std::vector<std::uint32_t> terms_of_pairs_;  ///< of all pairs: which it holds, ascending
   std::vector<std::uint32_t> first_terms_;     ///< by pair, and the number of all these
+  std::vector<std::uint32_t> next_terms_;      ///< working space
   double largest_range_ = 0.0;                 ///< m, of all springs
   bool terms_are_new_ = false;
   bool have_bars_ = false;

@@ -22,21 +22,21 @@ Iterator end_of_group(Iterator begin, Iterator end) {
 
 double StructurePatches::rebuild(std::span<const geometry::CellPair> pairs,
                                  const ContactMaterials& materials) {
-  std::vector<PairOfCells> listed;
-  std::vector<char> lives(patches_.size(), 0);
+  listed_.clear();
+  lives_.assign(patches_.size(), 0);
   auto old = pairs_.begin();
   for (const geometry::CellPair& cells : pairs) {
     while (old != pairs_.end() && old->cells < cells) ++old;
     const bool known = old != pairs_.end() && old->cells == cells;
-    listed.push_back(known ? *old : PairOfCells{cells});
-    if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
+    listed_.push_back(known ? *old : PairOfCells{cells});
+    if (known && old->patch >= 0) lives_[static_cast<std::size_t>(old->patch)] = 1;
   }
-  pairs_.swap(listed);
+  pairs_.swap(listed_);
   if (structure_pairs_.empty()) make_structure_pairs(materials);
   terms_.rebuild(pairs);
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (lives[i]) continue;
+    if (lives_[i] != 0) continue;
     lost += history_energy(patches_[i]);
     patches_[i].memory = {};  // so that it is not lost again when nothing follows the patch
   }
@@ -132,7 +132,17 @@ void StructurePatches::take_parts() {
     pair.patch = parts.part_of(i);
     if (pair.patch >= 0) pair.is_turned = parts.is_turned(i);
   }
-  patches_.resize(parts.count());
+  set_patch_count(parts.count());
+}
+
+/// Those that are no more keep their room for others.
+void StructurePatches::set_patch_count(std::size_t count) {
+  for (; patches_.size() > count; patches_.pop_back()) spare_.push_back(std::move(patches_.back()));
+  while (patches_.size() < count && !spare_.empty()) {
+    patches_.push_back(std::move(spare_.back()));
+    spare_.pop_back();
+  }
+  patches_.resize(count);
 }
 
 void StructurePatches::find_places() {

@@ -189,6 +189,7 @@ class StructurePatches {
                      const std::array<geometry::FeatureNodes, 2>& witness_features,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
   void take_parts();
+  void set_patch_count(std::size_t count);
   void find_places();
   void find_successors();
   void add_up_patches(Positions x, geometry::ThreadPool& pool);
@@ -209,10 +210,13 @@ class StructurePatches {
   PairTerms terms_;
   std::vector<TermPlaces> places_;
   std::vector<StructurePatch> patches_;
+  std::vector<StructurePatch> spare_;  ///< of earlier steps
   std::vector<PatchEnergy> energies_;  ///< of the patches
   std::vector<double> counts_;         ///< by structure pair, in the last step of the law
   std::vector<Predecessor> previous_;
   std::vector<PatchSuccessor> successors_;
+  std::vector<PairOfCells> listed_;  ///< working space, as is the next
+  std::vector<char> lives_;          ///< by patch
   double largest_overlap_ratio_ = 0.0;
   std::size_t crossings_ = 0;
 };

@@ -18,12 +18,13 @@ class StructureProbe {
   void begin(const structure::PairTerms& terms, std::span<const structure::NormalSpring> springs) {
     terms_ = terms;
     springs_ = springs;
+    has_begun_ = true;
   }
-  /// Nothing touches.
-  void clear() noexcept { terms_.reset(); }
+  /// Nothing touches. The room for terms is kept.
+  void clear() noexcept { has_begun_ = false; }
 
   /// Whether anything touched in the last step.
-  bool touches() const noexcept { return terms_ && !terms_->acting().empty(); }
+  bool touches() const noexcept { return has_begun_ && !terms_->acting().empty(); }
 
   /// Calls visit(nodes of one side, nodes of the other) for all that touch.
   template <class Visit>
@@ -38,6 +39,7 @@ class StructureProbe {
   void add_forces(Positions x, double moved, NodeForces& forces);
 
  private:
+  bool has_begun_ = false;
   std::optional<structure::PairTerms> terms_;
   std::span<const structure::NormalSpring> springs_;
   geometry::ThreadPool pool_{1};

@@ -113,19 +113,16 @@ void WrappedJoints::add(const PairTerm& term, std::span<const Holder> holders,
 void WrappedJoints::add_side(const PairTerm& term, bool is_a, std::span<const Holder> holders,
                              std::span<const geometry::CellPair> pairs,
                              const geometry::Surface& surface) {
-  std::vector<geometry::CellId> bars, opposite;
-  for (const Holder& holder : holders) {
-    bars.push_back(cell_on(holder, is_a, pairs));
-    opposite.push_back(cell_on(holder, !is_a, pairs));
-  }
-  const auto count_of = [](std::vector<geometry::CellId>& cells) {
+  const auto find = [&](bool side, std::vector<geometry::CellId>& cells) {
+    cells.clear();
+    for (const Holder& holder : holders) cells.push_back(cell_on(holder, side, pairs));
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells.size();
   };
-  const std::size_t count = count_of(bars);
-  if (count < 2 || count * count_of(opposite) != holders.size()) return;
-  const bool are_bars = std::all_of(bars.begin(), bars.end(), [&](geometry::CellId cell) {
+  const std::size_t count = find(is_a, cells_);
+  if (count < 2 || count * find(!is_a, opposite_) != holders.size()) return;
+  const bool are_bars = std::all_of(cells_.begin(), cells_.end(), [&](geometry::CellId cell) {
     return surface.nodes_of(cell).size() == 2;
   });
   if (!are_bars) return;
@@ -133,7 +130,7 @@ void WrappedJoints::add_side(const PairTerm& term, bool is_a, std::span<const Ho
   Joint joint{is_a, -term.weight / static_cast<double>(count - 1),
               static_cast<std::uint32_t>(arms_.size()), static_cast<std::uint32_t>(count)};
   const NodeId node = (is_a ? term.a : term.b).ids[0];
-  for (const geometry::CellId bar : bars) {
+  for (const geometry::CellId bar : cells_) {
     const auto ends = surface.nodes_of(bar);
     const auto holder = std::find_if(holders.begin(), holders.end(), [&](const Holder& of) {
       return cell_on(of, is_a, pairs) == bar;

@@ -85,6 +85,7 @@ class WrappedJoints {
   std::vector<std::uint32_t> touched_;  ///< pairs that have
   std::vector<PairForces> ends_;        ///< by pair; empty if there are no joints
   std::vector<PairForces> pulled_ends_;
+  std::vector<geometry::CellId> cells_, opposite_;  ///< working space
 };
 
 }  // namespace plekton::contact::structure

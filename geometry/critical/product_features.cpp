@@ -32,56 +32,19 @@ Closure closure_of(const Surface& surface, const Feature& feature) {
   return closure;
 }
 
-struct Key {
-  Feature a;
-  Feature b;
-  friend bool operator==(const Key&, const Key&) = default;
-};
+using Key = std::array<Feature, 2>;
 
-struct KeyHash {
-  std::size_t operator()(const Key& key) const noexcept {
-    const auto half = [](const Feature& f) {
-      return static_cast<std::uint64_t>(f.kind) << 32 | static_cast<std::uint32_t>(f.id);
-    };
-    // Kinds are in high bits, and whoever asks looks at low ones.
-    const std::uint64_t mixed =
-        half(key.a) * 0x9e3779b97f4a7c15u + half(key.b) * 0xc2b2ae3d27d4eb4fu;
-    return static_cast<std::size_t>((mixed ^ mixed >> 32) * 0xff51afd7ed558ccdu >> 24);
-  }
-};
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Pairs of features by number, in the order in which they were asked for first. Open addressing, at
-/// most half full.
-class Numbers {
- public:
-  std::uint32_t of(const Key& key) {
-    if (2 * (keys_.size() + 1) > slots_.size()) grow();
-    std::uint32_t& number = slots_[slot_of(key)];
-    if (number == kNone) {
-      number = static_cast<std::uint32_t>(keys_.size());
-      keys_.push_back(key);
-    }
-    return number;
-  }
-  const std::vector<Key>& keys() const noexcept { return keys_; }
-
- private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-  std::size_t slot_of(const Key& key) const noexcept {
-    const std::size_t last = slots_.size() - 1;
-    std::size_t slot = KeyHash()(key) & last;
-    while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & last;
-    return slot;
-  }
-  void grow() {
-    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = i;
-  }
-
-  std::vector<Key> keys_;
-  std::vector<std::uint32_t> slots_;  ///< 2^n
-};
+std::size_t hash_of(const Key& key) noexcept {
+  const auto half = [](const Feature& f) {
+    return static_cast<std::uint64_t>(f.kind) << 32 | static_cast<std::uint32_t>(f.id);
+  };
+  // Kinds are in high bits, and whoever asks looks at low ones.
+  const std::uint64_t mixed =
+      half(key[0]) * 0x9e3779b97f4a7c15u + half(key[1]) * 0xc2b2ae3d27d4eb4fu;
+  return static_cast<std::size_t>((mixed ^ mixed >> 32) * 0xff51afd7ed558ccdu >> 24);
+}
 
 std::size_t dimension(const Feature& feature) {
   return static_cast<std::size_t>(feature.kind);
@@ -108,46 +71,6 @@ void for_each_face(const Surface& surface, const Feature& of_a, const Feature& o
   }
 }
 
-/// Numbers in rows of any length.
-struct Rows {
-  std::vector<std::size_t> firsts;  ///< by row, and the number of all
-  std::vector<std::uint32_t> numbers;
-
-  std::span<const std::uint32_t> row(std::size_t i) const {
-    return {numbers.data() + firsts[i], numbers.data() + firsts[i + 1]};
-  }
-};
-
-/// The pairs of cells that have each pair of features, ascending.
-/// @param faces      of all pairs of cells, by number
-/// @param face_ends  by pair of cells: where its faces end
-Rows holders_of(std::size_t count, std::span<const std::uint32_t> faces,
-                std::span<const std::size_t> face_ends) {
-  Rows holders{std::vector<std::size_t>(count + 1, 0), std::vector<std::uint32_t>(faces.size())};
-  for (const std::uint32_t face : faces) ++holders.firsts[face + 1];
-  std::inclusive_scan(holders.firsts.begin(), holders.firsts.end(), holders.firsts.begin());
-  std::vector<std::size_t> next(holders.firsts);
-  std::size_t face = 0;
-  for (std::uint32_t pair = 0; pair < face_ends.size(); ++pair) {
-    for (; face < face_ends[pair]; ++face) holders.numbers[next[faces[face]]++] = pair;
-  }
-  return holders;
-}
-
-/// Numbers of those of higher dimension first, else ascending.
-std::vector<std::uint32_t> by_dimension(std::span<const Key> keys) {
-  const auto dimensions = [&](std::uint32_t i) {
-    return dimension(keys[i].a) + dimension(keys[i].b);
-  };
-  std::vector<std::uint32_t> sorted;
-  sorted.reserve(keys.size());
-  for (std::size_t d = 5; d-- > 0;) {
-    for (std::uint32_t i = 0; i < keys.size(); ++i)
-      if (dimensions(i) == d) sorted.push_back(i);
-  }
-  return sorted;
-}
-
 }  // namespace
 
 FeatureNodes nodes_of(const Surface& surface, const Feature& feature) noexcept {
@@ -158,33 +81,85 @@ FeatureNodes nodes_of(const Surface& surface, const Feature& feature) noexcept {
   return {{ends[0], ends[1], ends[1]}, 2};
 }
 
-ProductFeatures product_features(const Surface& surface, std::span<const CellPair> pairs) {
-  Numbers numbers;
-  std::vector<std::uint32_t> faces;  // of all pairs of cells, by number
-  std::vector<std::size_t> face_ends;
+std::uint32_t ProductFeatureFinder::number_of(const Key& key) {
+  if (2 * (keys_.size() + 1) > slots_.size()) grow();
+  std::uint32_t& number = slots_[slot_of(key)];
+  if (number == kNone) {
+    number = static_cast<std::uint32_t>(keys_.size());
+    keys_.push_back(key);
+  }
+  return number;
+}
+
+std::size_t ProductFeatureFinder::slot_of(const Key& key) const noexcept {
+  const std::size_t last = slots_.size() - 1;
+  std::size_t slot = hash_of(key) & last;
+  while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & last;
+  return slot;
+}
+
+void ProductFeatureFinder::grow() {
+  slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = i;
+}
+
+void ProductFeatureFinder::list_faces(const Surface& surface, std::span<const CellPair> pairs) {
+  keys_.clear();
+  std::ranges::fill(slots_, kNone);
+  faces_.clear();
+  face_ends_.clear();
   for (const CellPair& pair : pairs) {
     for_each_face(surface, surface.feature_of(pair.a), surface.feature_of(pair.b),
-                  [&](const Key& key) { faces.push_back(numbers.of(key)); });
-    face_ends.push_back(faces.size());
+                  [&](const Key& key) { faces_.push_back(number_of(key)); });
+    face_ends_.push_back(faces_.size());
   }
-  const std::vector<Key>& keys = numbers.keys();
-  const Rows holders = holders_of(keys.size(), faces, face_ends);
+}
 
-  ProductFeatures found;
-  std::vector<std::int32_t> covered(keys.size(), 0);  // weights of those it is a proper face of
-  for (const std::uint32_t i : by_dimension(keys)) {
-    const std::int32_t weight = 1 - covered[i];
-    if (weight == 0) continue;
-    const auto having = holders.row(i);
-    found.pairs.push_back({keys[i].a, keys[i].b, weight,
-                           static_cast<std::uint32_t>(found.holders.size()),
-                           static_cast<std::uint32_t>(having.size())});
-    found.holders.insert(found.holders.end(), having.begin(), having.end());
-    // The feature itself comes first, and is done.
-    for_each_face(surface, keys[i].a, keys[i].b,
-                  [&](const Key& face) { covered[numbers.of(face)] += weight; });
+void ProductFeatureFinder::list_holders() {
+  first_holders_.assign(keys_.size() + 1, 0);
+  for (const std::uint32_t face : faces_) ++first_holders_[face + 1];
+  std::inclusive_scan(first_holders_.begin(), first_holders_.end(), first_holders_.begin());
+  next_ = first_holders_;
+  holders_.resize(faces_.size());
+  std::size_t face = 0;
+  for (std::uint32_t pair = 0; pair < face_ends_.size(); ++pair) {
+    for (; face < face_ends_[pair]; ++face) holders_[next_[faces_[face]]++] = pair;
   }
-  return found;
+}
+
+void ProductFeatureFinder::sort_by_dimension() {
+  sorted_.clear();
+  for (std::size_t d = 5; d-- > 0;) {
+    for (std::uint32_t i = 0; i < keys_.size(); ++i)
+      if (dimension(keys_[i][0]) + dimension(keys_[i][1]) == d) sorted_.push_back(i);
+  }
+}
+
+const ProductFeatures& ProductFeatureFinder::find(const Surface& surface,
+                                                  std::span<const CellPair> pairs) {
+  list_faces(surface, pairs);
+  list_holders();
+  sort_by_dimension();
+  found_.pairs.clear();
+  found_.holders.clear();
+  covered_.assign(keys_.size(), 0);
+  for (const std::uint32_t i : sorted_) {
+    const std::int32_t weight = 1 - covered_[i];
+    if (weight == 0) continue;
+    const auto having = holders_of(i);
+    found_.pairs.push_back({keys_[i][0], keys_[i][1], weight,
+                            static_cast<std::uint32_t>(found_.holders.size()),
+                            static_cast<std::uint32_t>(having.size())});
+    found_.holders.insert(found_.holders.end(), having.begin(), having.end());
+    // The feature itself comes first, and is done.
+    for_each_face(surface, keys_[i][0], keys_[i][1],
+                  [&](const Key& face) { covered_[number_of(face)] += weight; });
+  }
+  return found_;
+}
+
+ProductFeatures product_features(const Surface& surface, std::span<const CellPair> pairs) {
+  return ProductFeatureFinder().find(surface, pairs);
 }
 
 Feature feature_of(const Surface& surface, const FeatureNodes& nodes) noexcept {

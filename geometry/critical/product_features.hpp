@@ -4,6 +4,8 @@
 #include "geometry/primitives/elements.hpp"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -52,6 +54,48 @@ struct ProductFeatures {
 
 /// @param pairs  sorted, each once; the cells of a pair share no node
 ProductFeatures product_features(const Surface& surface, std::span<const CellPair> pairs);
+
+/// product_features() of one list after the other, in memory that it keeps. A copy begins without.
+class ProductFeatureFinder {
+ public:
+  ProductFeatureFinder() = default;
+  ProductFeatureFinder(const ProductFeatureFinder&) noexcept {}
+  ProductFeatureFinder(ProductFeatureFinder&&) noexcept = default;
+  ProductFeatureFinder& operator=(const ProductFeatureFinder&) noexcept { return *this; }
+  ProductFeatureFinder& operator=(ProductFeatureFinder&&) noexcept = default;
+  ~ProductFeatureFinder() = default;
+
+  /// @returns what lasts until the next call
+  const ProductFeatures& find(const Surface& surface, std::span<const CellPair> pairs);
+
+ private:
+  using Key = std::array<Feature, 2>;
+
+  std::uint32_t number_of(const Key& key);
+  std::size_t slot_of(const Key& key) const noexcept;
+  void grow();
+  void list_faces(const Surface& surface, std::span<const CellPair> pairs);
+  void list_holders();
+  void sort_by_dimension();
+  std::span<const std::uint32_t> holders_of(std::uint32_t number) const noexcept {
+    return {holders_.data() + first_holders_[number], holders_.data() + first_holders_[number + 1]};
+  }
+
+  /// Pairs of features by number, in the order in which they were asked for first. Open addressing,
+  /// at most half full.
+  std::vector<Key> keys_;
+  std::vector<std::uint32_t> slots_;  ///< 2^n
+
+  std::vector<std::uint32_t> faces_;        ///< of all pairs of cells, by number
+  std::vector<std::size_t> face_ends_;      ///< by pair of cells: where its faces end
+  std::vector<std::size_t> first_holders_;  ///< by number, and the number of all
+  std::vector<std::uint32_t>
+      holders_;  ///< pairs of cells that have each pair of features, ascending
+  std::vector<std::size_t> next_;
+  std::vector<std::uint32_t> sorted_;  ///< numbers, those of higher dimension first, else ascending
+  std::vector<std::int32_t> covered_;  ///< by number: weights of those it is a proper face of
+  ProductFeatures found_;
+};
 
 /// Nodes of a feature: 1, 2 or 3.
 struct FeatureNodes {
