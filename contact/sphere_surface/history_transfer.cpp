@@ -46,7 +46,7 @@ EnergyLoss HistoryTransfer::to_patches(const PatchesOfPair& now, const ContactsO
     // through the surface.
     pass_throughs_ +=
         std::all_of(successors.begin(), successors.end(), [&](std::uint32_t successor) {
-          return is_turned_over(old.memory.normal, states[successor].normal);
+          return has_passed(now.pair, old.memory.normal, states[successor], dt);
         });
     hand_on_history(old, successors, states, dt);
   }

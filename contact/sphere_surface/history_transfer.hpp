@@ -62,10 +62,17 @@ class HistoryTransfer {
                                const PatchState& state, const Motion& motion, double dt,
                                Transferred& to);
 
-  /// How many contacts have gone on with the opposite normal in this step: a sphere passes through.
+  /// How many contacts have gone on with the opposite normal in this step while the centre of the
+  /// sphere was by the core, less than half a radius away: a sphere passes through. (A small part of
+  /// the contact with what wraps a sphere may turn over too, where its pieces merge.)
   std::int64_t pass_throughs() const noexcept { return pass_throughs_; }
 
  private:
+  static bool has_passed(const SphereSurfacePair& pair, const Vec3& last_normal,
+                         const PatchState& state, double dt) noexcept {
+    return is_turned_over(last_normal, state.normal) &&
+           state.gap + pair.range < 0.5 * pair.radius + dt * state.relative_velocity.norm();
+  }
   std::span<const std::uint32_t> successors_of(std::span<const Feature> minima,
                                                const PatchesOfPair& now, Positions x) {
     return successors_.find(minima, x[index_of(now.pair.node)], x, now.patches, now.finder);
@@ -97,7 +104,7 @@ inline EnergyLoss HistoryTransfer::to_single_feature(const PatchesOfPair& now,
       loss.dissipated = loss_of(now.pair, old, minima, motion, dt);
       continue;
     }
-    pass_throughs_ += is_turned_over(old.memory.normal, state.normal);
+    pass_throughs_ += has_passed(now.pair, old.memory.normal, state, dt);
     AnyLaw::accumulate_history(
         to.history, carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
     to.id = old.id;

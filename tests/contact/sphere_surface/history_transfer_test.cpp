@@ -338,11 +338,13 @@ TEST(HistoryTransfer, GivesASingleFeatureWhatTheGeneralWayGivesToTheLastBit) {
   EXPECT_EQ(loss_alone.dissipated, loss.dissipated);
 }
 
-TEST(HistoryTransfer, CountsContactsThatGoOnWithTheOppositeNormal) {
+TEST(HistoryTransfer, CountsContactsThatGoOnWithTheOppositeNormalWhereTheCentreIsByTheCore) {
   Valley valley(Vec3(0.01, 0, 0.9995));
   valley.add_last(3, 1.0, {Feature(FaceId{0})});
   PatchState turned = pushing(1.0);
   turned.normal = Vec3::UnitZ();
+  PatchState through = turned;
+  through.gap = 0.1 - valley.pair.range;
   const auto now = valley.now();
 
   valley.transfer.begin_step();
@@ -350,6 +352,8 @@ TEST(HistoryTransfer, CountsContactsThatGoOnWithTheOppositeNormal) {
                              1e-3);
   EXPECT_EQ(valley.transfer.pass_throughs(), 0);
   valley.transfer.to_patches(now, valley.before(), std::vector{turned}, valley.motion(), 1e-3);
+  EXPECT_EQ(valley.transfer.pass_throughs(), 0);
+  valley.transfer.to_patches(now, valley.before(), std::vector{through}, valley.motion(), 1e-3);
   EXPECT_EQ(valley.transfer.pass_throughs(), 1);
   valley.transfer.begin_step();
   EXPECT_EQ(valley.transfer.pass_throughs(), 0);
