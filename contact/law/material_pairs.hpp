@@ -61,18 +61,19 @@ class MaterialPairs {
                        [](const auto& pair) { return pair.second.law->has_interaction_range; });
   }
 
-  /// Of the parameters of all pairs, so that other materials or laws have another one.
+  /// Of the materials and of the laws of their pairs: others have another one. Linear in both.
   std::uint64_t hash() const {
     geometry::BitHash hash;
-    for (std::size_t a = 0; a < size(); ++a) {
-      for (std::size_t b = a; b < size(); ++b) {
-        const Parameters of_pair = combine(BodyPart{geometry::id_at<MaterialId>(a), 1.0, 1.0},
-                                           BodyPart{geometry::id_at<MaterialId>(b), 1.0, 1.0});
-        for (const char c : of_pair.law->name)
-          hash.add(std::uint64_t{static_cast<unsigned char>(c)});
-        for (std::size_t i = 0; i < of_pair.law->parameter_numbers; ++i)
-          hash.add(of_pair.numbers[i]);
-      }
+    for (const Material& material : materials_) {
+      for (const double number : {material.young_modulus, material.stiffness_ratio,
+                                  material.friction, material.poisson_ratio})
+        hash.add(number);
+    }
+    if (!materials_.empty()) add(others_, MaterialId{0}, MaterialId{0}, hash);
+    for (const auto& [pair, of_pair] : properties_) {
+      hash.add(static_cast<std::uint64_t>(pair.first));
+      hash.add(static_cast<std::uint64_t>(pair.second));
+      add(of_pair, pair.first, pair.second, hash);
     }
     return hash.value();
   }
@@ -81,6 +82,15 @@ class MaterialPairs {
   const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }
 
  private:
+  /// Of bodies of a size: what a law makes of two materials.
+  void add(const AnyLaw::Properties& properties, MaterialId a, MaterialId b,
+           geometry::BitHash& hash) const {
+    const Parameters of_pair = AnyLaw::combine(properties, {at(a), 1.0, 1.0, Shape::sphere},
+                                               {at(b), 1.0, 1.0, Shape::sphere});
+    for (const char c : of_pair.law->name) hash.add(std::uint64_t{static_cast<unsigned char>(c)});
+    for (std::size_t i = 0; i < of_pair.law->parameter_numbers; ++i) hash.add(of_pair.numbers[i]);
+  }
+
   std::vector<Material> materials_;
   PairProperties<AnyLaw> properties_;
   AnyLaw::Properties others_;

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <vector>
 
 /// Contacts that a scene may come to have, for a time step that stays safe when they begin: a light
@@ -83,8 +85,8 @@ class ExpectedContacts {
       const geometry::StructureId own = surface_.structure_of(geometry::id_at<NodeId>(n));
       if (own == geometry::StructureId{-1}) continue;
       ExpectedStiffness hardest;
-      for (std::size_t i = 0; i < structures_.size(); ++i)
-        take_structure(geometry::id_at<NodeId>(n), i, hardest);
+      for (const Alike& alike : alike_)
+        take_structure(geometry::id_at<NodeId>(n), alike.first, hardest);
       const double radius = structures_[index_of(own)].radius;
       expected[n] = {from_all_sides(2.0 * hardest.normal, 2.0 * hardest.tangential, radius),
                      from_all_sides(2.0 * hardest.damping, 0.0, radius).translation};
@@ -191,6 +193,29 @@ class ExpectedContacts {
       const auto& cylinder = scene_.elements.cylinders[i];
       set(cylinder.nodes[0], scene_.cylinder_materials[i], cylinder.radius);
     }
+    collect_alike();
+  }
+
+  /// Structures to which all that is asked here is the same: the first and another one, or the first
+  /// again.
+  struct Alike {
+    std::size_t first;
+    std::size_t second;
+  };
+  /// In the order of the first of each.
+  void collect_alike() {
+    const auto key_of = [&](std::size_t i) {
+      const Kind& kind = structures_[i];
+      return std::tuple(kind.material, kind.radius, kind.shape, structure_masses_[i]);
+    };
+    std::map<decltype(key_of(0)), std::size_t> places;
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      const auto [place, is_new] = places.emplace(key_of(i), alike_.size());
+      if (is_new)
+        alike_.push_back({i, i});
+      else if (Alike& alike = alike_[place->second]; alike.second == alike.first)
+        alike.second = i;
+    }
   }
 
   /// The smallest and the largest spheres of each material.
@@ -231,9 +256,11 @@ class ExpectedContacts {
   /// Of another structure that lies on all that is around the node (surface_surface/extended.hpp).
   ExpectedStiffness hardest_structure(NodeId node) const {
     ExpectedStiffness hardest;
-    for (std::size_t i = 0; i < structures_.size(); ++i) {
-      if (geometry::id_at<geometry::StructureId>(i) != surface_.structure_of(node))
-        take_structure(node, i, hardest);
+    for (const Alike& alike : alike_) {
+      if (geometry::id_at<geometry::StructureId>(alike.first) != surface_.structure_of(node))
+        take_structure(node, alike.first, hardest);
+      else if (alike.second != alike.first)
+        take_structure(node, alike.second, hardest);
     }
     return hardest;
   }
@@ -256,8 +283,8 @@ class ExpectedContacts {
       const Kind equal{other.material, sphere.radius, contact::Shape::sphere, sphere.mass};
       take(sphere, equal, balls(equal), hardest);
     }
-    for (std::size_t i = 0; i < structures_.size(); ++i)
-      take(sphere, structures_[i], structure(i), hardest);
+    for (const Alike& alike : alike_)
+      take(sphere, structures_[alike.first], structure(alike.first), hardest);
     for (std::size_t i = 0; i < scene_.planes.size(); ++i)
       take(sphere, plane_under(i, sphere.radius), plane(i), hardest);
     return hardest;
@@ -297,6 +324,7 @@ class ExpectedContacts {
   const contact::Contacts& contacts_;
   std::vector<double> masses_;            ///< kg, by node
   std::vector<Kind> structures_;          ///< a surface that a sphere meets counts as held
+  std::vector<Alike> alike_;              ///< of the structures
   std::vector<double> structure_masses_;  ///< kg, mean of their nodes: where two of them meet
   std::vector<Kind> kinds_;
   std::vector<double> length_;  ///< m, of cylinders, by node

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace plekton::contact::models_test {
 namespace {
@@ -20,13 +21,14 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr MaterialId kStone{0};
 
-/// What is said of a model with one material, or nothing.
-std::string problems_of(const ContactModel& model) {
+/// What is said of a model with some materials, or nothing.
+std::string problems_of(const ContactModel& model,
+                        const std::vector<Material>& materials = {Material{1e6, 0.5, 0.4}}) {
   const geometry::Surface surface;
   try {
     model({.spheres = {},
            .surface = surface,
-           .materials = {Material{1e6, 0.5, 0.4}},
+           .materials = materials,
            .of_spheres = {},
            .of_structures = {},
            .masses = {},
@@ -97,6 +99,26 @@ struct WithoutStiffness : HertzMindlin {
   static constexpr std::string_view name = "without_stiffness";
   static double normal_stiffness(const Parameters&, double) { return kNan; }
 };
+
+struct CountingStiffness : HertzMindlin {
+  static constexpr std::string_view name = "counting_stiffness";
+  static inline std::size_t count = 0;
+  static double normal_stiffness(const Parameters& p, double gap) {
+    ++count;
+    return HertzMindlin::normal_stiffness(p, gap);
+  }
+};
+
+// 100 000 materials would take minutes if all pairs were asked.
+TEST(Models, AskForEachOfManyMaterialsAFewTimes) {
+  std::vector<Material> materials(1000, Material{1e6, 0.5, 0.4});
+  for (std::size_t i = 0; i < materials.size(); ++i) materials[i].young_modulus += double(i);
+
+  EXPECT_EQ(problems_of(model_of<CountingStiffness>(), materials), "");
+
+  EXPECT_GE(CountingStiffness::count, materials.size());
+  EXPECT_LE(CountingStiffness::count, 10 * materials.size());
+}
 
 TEST(Models, NameALawWhoseStiffnessIsNotFinite) {
   EXPECT_THAT(problems_of(model_of<WithoutStiffness>()),
