@@ -2,11 +2,13 @@
 #include "apps/command_line/import_command.hpp"
 
 #include "apps/command_line/exit_code.hpp"
+#include "apps/command_line/set_up_aloud.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/units.hpp"
 #include "apps/scenario/value_type.hpp"
 #include "dynamics/output/file.hpp"
+#include "geometry/base/printable.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
 #include "geometry/mesh/repair/repair.hpp"
@@ -124,7 +126,12 @@ void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
   if (is_written && !arguments.overwrite)
     refuse_results(arguments.out, "import",
                    std::array<std::string_view, 2>{mesh_name, "report.json"});
-  const geometry::ImportedMesh imported = imported_mesh(arguments.mesh, options, thickness);
+  const auto import = [&](const HearSetUp& hear) {
+    options.repair.hear = [&](std::string_view step) { hear(std::string(step), 0.0); };
+    return imported_mesh(arguments.mesh, options, thickness);
+  };
+  const geometry::ImportedMesh imported =
+      aloud(false, import, "importing " + geometry::printable(arguments.mesh.filename().string()));
   if (is_written) write_import(arguments.out, mesh_name, imported);
 
   out << (arguments.json ? geometry::to_json(imported.report) : geometry::to_text(imported.report));

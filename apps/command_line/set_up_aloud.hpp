@@ -17,9 +17,11 @@ ProgressStyle style_on(int descriptor, bool quiet);
 
 /// Says on standard error what is being set up, so that results stay alone on standard output.
 /// @param set_up  (hear), what is done meanwhile
+/// @param task    what lines begin with
 template <class SetUp>
-auto aloud(bool quiet, SetUp&& set_up) {
-  SetUpProgress progress(std::cerr, style_on(STDERR_FILENO, quiet));
+auto aloud(bool quiet, SetUp&& set_up, const std::string& task = "setting up") {
+  SetUpProgress progress(std::cerr, style_on(STDERR_FILENO, quiet), SetUpProgress::Clock::now(),
+                         task);
   return set_up([&](const std::string& what, double share) { progress.update(what, share); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -36,8 +37,9 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-SetUpProgress::SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start)
-    : out_(out), style_(style), start_(start), last_(start) {
+SetUpProgress::SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start,
+                             std::string task)
+    : out_(out), style_(style), task_(std::move(task)), start_(start), last_(start) {
   if (style == ProgressStyle::lines)
     teller_ = std::jthread([this](const std::stop_token& stop) { tell_now_and_then(stop); });
 }
@@ -74,7 +76,7 @@ void SetUpProgress::tell(Clock::time_point now) {
   const bool is_new = now_ != what_;
   what_ = now_;
   last_ = now;
-  std::string line = "setting up: " + what_;
+  std::string line = task_ + ": " + what_;
   if (share_ > 0.0) line += fmt::format(", {:.0f} %", 100.0 * share_);
   if (style_ != ProgressStyle::one_line) {
     out_ << line << std::endl;

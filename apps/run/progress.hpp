@@ -28,7 +28,9 @@ class SetUpProgress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start = Clock::now());
+  /// @param task  what lines begin with
+  SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start = Clock::now(),
+                std::string task = "setting up");
   SetUpProgress(const SetUpProgress&) = delete;
   SetUpProgress& operator=(const SetUpProgress&) = delete;
   /// Leaves an empty line, so that other output can follow.
@@ -47,6 +49,7 @@ class SetUpProgress {
 
   std::ostream& out_;
   ProgressStyle style_;
+  std::string task_;
   Clock::time_point start_;
   Clock::time_point last_;  // of the last text
   std::string what_;        // that was told last

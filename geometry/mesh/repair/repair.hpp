@@ -4,9 +4,14 @@
 #include "geometry/mesh/mesh.hpp"
 #include "geometry/mesh/repair/report.hpp"
 
+#include <functional>
 #include <limits>
+#include <string_view>
 
 namespace plekton::geometry {
+
+/// Is told what begins, as in "remeshing", by the thread that repairs.
+using HearRepair = std::function<void(std::string_view step)>;
 
 struct RepairOptions {
   /// m. Points that steps of at most this length join become one, chains of them however long, at
@@ -28,7 +33,14 @@ struct RepairOptions {
   double wrap_detail = 0.0;
   /// m. Remesh to edges of about this length (see remesh); 0 leaves the facets as they are.
   double target_edge = 0.0;
+  /// Told where a repair is, as large meshes take a while; empty: nobody is.
+  HearRepair hear = {};
 };
+
+/// Tells who listens, if anybody does.
+inline void tell(const RepairOptions& options, std::string_view step) {
+  if (options.hear) options.hear(step);
+}
 
 /// Turns polygons into facets over shared nodes and tells what that took.
 ///

@@ -112,6 +112,15 @@ TEST(SetUpProgress, SpeaksInLinesAlsoWhileNothingCallsIt) {
   EXPECT_EQ(out.str(), "setting up: looking for contacts\n");
 }
 
+TEST(SetUpProgress, SaysWhatItIsTheProgressOf) {
+  std::ostringstream out;
+  {
+    SetUpProgress progress(out, ProgressStyle::one_line, {}, "importing tyre.stl");
+    progress.update("remeshing", 0.0);
+  }
+  EXPECT_EQ(out.str().find("\rimporting tyre.stl: remeshing"), 0U);
+}
+
 TEST(SetUpProgress, IsSilentWhenAllIsSetUp) {
   std::ostringstream out;
   {

@@ -14,6 +14,8 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace plekton::geometry::reshape_test {
 namespace {
@@ -22,6 +24,7 @@ using test::inside_out;
 using test::repaired;
 using test::together;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -30,6 +33,21 @@ Mesh without_facets(Mesh mesh, std::size_t from, std::size_t count) {
   const auto first = mesh.facets.begin() + static_cast<std::ptrdiff_t>(from);
   mesh.facets.erase(first, first + static_cast<std::ptrdiff_t>(count));
   return mesh;
+}
+
+TEST(Repair, TellsEachStepThatBegins) {
+  std::vector<std::string> steps;
+  RepairOptions options;
+  options.fill_holes = true;
+  options.target_edge = 0.2;
+  options.hear = [&](std::string_view step) { steps.emplace_back(step); };
+
+  repaired(to_soup(without_facets(box_shell({1.0, 1.0, 1.0}), 0, 2)), options);
+
+  EXPECT_THAT(steps,
+              ElementsAre("joining points", "cutting polygons into facets", "orienting facets",
+                          "filling holes", "remeshing", "measuring how far the surface has moved",
+                          "measuring, and looking for facets that intersect"));
 }
 
 TEST(FillHoles, ClosesABoxAgainOverItsOwnNodes) {
