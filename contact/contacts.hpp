@@ -137,6 +137,9 @@ class Contacts {
   /// that contacts did to the nodes.
   /// @param x  m, where the nodes were in that step
   virtual void for_each_record(Positions x, Visit<const ContactRecord&> visit) const = 0;
+  /// Those of them between structures that have no row, as their elastic forces cancel: of bodies
+  /// that lie one in the other. At the features that are deepest; without normal and force.
+  virtual void for_each_balanced(Positions x, Visit<const ContactRecord&> visit) const = 0;
   /// Calls visit(row, force (N), torque (N m)) for contacts between structures, with what each did
   /// to one node.
   virtual void for_each_structure_record_on(

@@ -78,6 +78,9 @@ class SceneContacts final : public Contacts {
     between_structures_.assign_ids(last_number_);
     with_planes_.assign_ids(last_number_);
   }
+  void for_each_balanced(Positions x, Visit<const ContactRecord&> visit) const override {
+    between_structures_.for_each_balanced(x, visit);
+  }
   void for_each_record(Positions x, Visit<const ContactRecord&> visit) const override {
     with_spheres_.for_each_record(x, visit);
     with_surfaces_.for_each_record(x, visit);

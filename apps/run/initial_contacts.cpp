@@ -102,6 +102,13 @@ std::vector<std::string> warnings_about_limits(const Scenario& scenario, std::si
 
 }  // namespace
 
+std::vector<ContactRecord> first_contacts(const dynamics::Simulation& simulation) {
+  std::vector<ContactRecord> rows = simulation.contact_rows();
+  simulation.contacts().for_each_balanced(simulation.state().position,
+                                          [&](const ContactRecord& row) { rows.push_back(row); });
+  return rows;
+}
+
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,
                                  const dynamics::Simulation& simulation,
                                  std::span<const ContactRecord> rows) {

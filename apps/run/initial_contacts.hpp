@@ -19,6 +19,9 @@ struct InitialContacts {
   std::vector<std::size_t> bonds;     ///< how many hold, by table [[contacts]]
 };
 
+/// Those of a simulation that has made no step, also where forces cancel.
+std::vector<contact::ContactRecord> first_contacts(const dynamics::Simulation& simulation);
+
 /// Looks at the contacts that a simulation begins with. Overlaps that may be rounding of coordinates
 /// do not count.
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,

@@ -788,7 +788,7 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   }
   choose_time_step(scenario.simulation, *prepared.simulation);
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation,
-                                    prepared.simulation->contact_rows());
+                                    first_contacts(*prepared.simulation));
   for (std::string& warning : warnings_about(prepared.start, scenario))
     prepared.built.warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_about_units(scenario))

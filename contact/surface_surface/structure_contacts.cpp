@@ -14,6 +14,15 @@ using structure::StructureBond;
 using structure::StructurePair;
 using structure::StructurePatch;
 
+namespace {
+
+ContactBody body_of(const geometry::FeatureNodes& nodes, const geometry::Surface& surface) {
+  return {BodyKind::structure, static_cast<std::int32_t>(surface.structure_of(nodes.ids[0])),
+          geometry::feature_of(surface, nodes)};
+}
+
+}  // namespace
+
 double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
                                   const ContactMaterials& materials) {
   const double lost = patches_.rebuild(pairs, materials);
@@ -80,6 +89,27 @@ void StructureContacts::for_each_record(Positions x, VisitRecord visit) const {
   for (const StructureBond& bond : bonds_.all()) visit(row_of(bond, x));
 }
 
+void StructureContacts::for_each_balanced(Positions x, VisitRecord visit) const {
+  const geometry::Surface& surface = patches_.surface();
+  const auto centre = [&](const geometry::FeatureNodes& nodes) {
+    Vec3 sum = Vec3::Zero();
+    for (const NodeId node : nodes) sum += x[index_of(node)];
+    return Vec3(sum / static_cast<double>(nodes.count));
+  };
+  for (const StructurePatch& patch : patches_.patches()) {
+    if (patch.pushes() || !(patch.deepest_overlap > 0.0)) continue;
+    ContactRecord row;
+    row.a = body_of(patch.deepest[0], surface);
+    row.b = body_of(patch.deepest[1], surface);
+    row.point_a = centre(patch.deepest[0]);
+    row.point_b = centre(patch.deepest[1]);
+    row.point = 0.5 * (row.point_a + row.point_b);
+    row.deepest = patch.deepest_overlap;
+    row.gap = -row.deepest;
+    visit(row);
+  }
+}
+
 void StructureContacts::for_each_record_on(NodeId node, Positions x, VisitRecordOn visit) const {
   NodeForces forces(x.size());
   Vec3& force = forces.force[index_of(node)];
@@ -128,15 +158,10 @@ ContactRecord StructureContacts::row_of(const StructurePatch& patch,
                                         const SpreadContacts::Sum& spread, Positions x) const {
   const StructurePair& structure_pair = patches_.structure_pair_of(patch);
   const geometry::Surface& surface = patches_.surface();
-  const auto body = [&](const geometry::FeatureNodes& nodes) {
-    return ContactBody{BodyKind::structure,
-                       static_cast<std::int32_t>(surface.structure_of(nodes.ids[0])),
-                       geometry::feature_of(surface, nodes)};
-  };
   ContactRecord row;
   row.id = patch.id;
-  row.a = body(patch.deepest[0]);
-  row.b = body(patch.deepest[1]);
+  row.a = body_of(patch.deepest[0], surface);
+  row.b = body_of(patch.deepest[1], surface);
   row.point_a = patch.first.point();
   row.point_b = patch.second.point();
   row.point = row.point_b + patch.lever_of_second(structure_pair);

@@ -102,6 +102,8 @@ class StructureContacts {
   /// Calls visit(ContactRecord) for every patch that pushed in the last step, in the order of the
   /// list, then for every bond.
   void for_each_record(Positions x, VisitRecord visit) const;
+  /// See Contacts::for_each_balanced().
+  void for_each_balanced(Positions x, VisitRecord visit) const;
 
   /// Calls visit(ContactRecord, force (N), torque (N m)) for the same rows, with what each did to
   /// one node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
