@@ -18,7 +18,7 @@
 namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
-constexpr int kCheckpointVersion = 12;
+constexpr int kCheckpointVersion = 13;
 
 inline constexpr std::string_view kUnknownRevision = "unknown";
 

@@ -33,6 +33,8 @@ class SpreadStiffness {
   /// Looks for balls that have a term which is not one contact.
   /// @returns whether there are any
   bool begin(ContactSprings& springs, std::size_t node_count);
+  /// 1/s², of the last look: what has been added over the mass; 0 if there were none.
+  double largest_rate() const noexcept { return motion_.largest_rate(); }
   /// The motion of the last look.
   void exchange(const geometry::StateArchive& archive);
   bool is_spread(NodeId ball) const noexcept {

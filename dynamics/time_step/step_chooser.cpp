@@ -74,7 +74,7 @@ bool StepChooser::structures_touch() const {
 }
 
 bool StepChooser::is_due(std::int64_t steps, double dt, double spin) const noexcept {
-  const bool is_regular = steps > 0 && steps % kStepsBetweenLooks == 0;
+  const bool is_regular = steps > 0 && steps % steps_between_ == 0;
   // The drift that begins now, as fast as the last one was and faster by as much again.
   const double next = 2.0 * way_in_a_step_;
   return is_regular || of_.contacts.list_count() != look_.lists ||
@@ -97,6 +97,7 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double margin = 2.0 * look_.longest_way;
   const double crossed = of_.contacts.crossings() > 0 ? kReleaseStep / kSafety : 1.0;
   const double near = crossed * stable_near(margin, dt);
+  plan_next_look(pace.steps);
   const double stable =
       std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
                 springs_.crossing_step(of_.scene.state, of_.scene.properties),
@@ -106,6 +107,21 @@ double StepChooser::choose(double dt, const Pace& pace) {
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
   return step_;
+}
+
+/// Sooner where what spreads has changed by more than kSafety leaves since the last regular look, or
+/// did between that and the one before.
+void StepChooser::plan_next_look(std::int64_t steps) {
+  constexpr double kLeft = (kLargestStep / kSafety) * (kLargestStep / kSafety);
+  const double rate = spread_.largest_rate();
+  least_spread_ = std::min(least_spread_, rate);
+  most_spread_ = std::max(most_spread_, rate);
+  const bool has_changed = most_spread_ > kLeft * least_spread_;
+  if (has_changed) steps_between_ = kStepsOfChange;
+  if (steps % kStepsBetweenLooks == 0) {
+    if (!has_changed) steps_between_ = kStepsBetweenLooks;
+    least_spread_ = most_spread_ = rate;
+  }
 }
 
 /// s, that follows wires which become taut or slack until the next look.
@@ -225,6 +241,11 @@ void StepChooser::exchange(const geometry::StateArchive& archive) {
   archive("lists", look_.lists);
   archive("way", look_.way);
   archive("longest_way", look_.longest_way);
+  archive("steps_between", steps_between_);
+  archive.require(steps_between_ == kStepsOfChange || steps_between_ == kStepsBetweenLooks,
+                  "steps_between");
+  archive("least_spread", least_spread_);
+  archive("most_spread", most_spread_);
   archive("way_in_a_step", way_in_a_step_);
   archive("step", step_);
   // Of the scene as it was when steps began to be chosen, which may have gone on from another.

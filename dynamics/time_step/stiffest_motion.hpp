@@ -4,6 +4,7 @@
 #include "dynamics/state/node_state.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -48,7 +49,10 @@ class StiffestMotion {
   bool has(std::size_t node) const noexcept { return takes_part_[node] != 0; }
 
   /// The next look begins with a motion of its own.
-  void forget() noexcept { is_new_ = true; }
+  void forget() noexcept {
+    is_new_ = true;
+    rates_.clear();
+  }
 
   /// @param next  products to take where the motion is that of a look before
   /// @returns how many products to take
@@ -73,6 +77,10 @@ class StiffestMotion {
   void add_to_product(std::size_t node, const Vec3& force) noexcept { product_[node] += force; }
   /// Goes on to the product, which also takes in what it moves.
   void follow(const NodeProperties& properties);
+  /// 1/s², the largest eigenvalue of any part as it was found at the last look.
+  double largest_rate() const noexcept {
+    return rates_.empty() ? 0.0 : *std::max_element(rates_.begin(), rates_.end());
+  }
   /// 1/s², the eigenvalue as it was found for the part of a node.
   double rate(std::size_t node) const noexcept { return rates_[part_[node]]; }
 

@@ -2,6 +2,7 @@
 // Scenarios that once failed, as they were found (tests/apps/run/defects): by the program as it is
 // called, for as long as it takes to pass what went wrong.
 #include "tests/apps/command_line/program_fixture.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -89,25 +90,41 @@ TEST_P(DefectsOfRuns, EndWithTheirEnergyClosed) {
 
   ASSERT_EQ(defect.outcome().exit_code, 0) << defect.outcome().err;
   EXPECT_EQ(defect.report().at("status").get<std::string>(), "finished");
+  EXPECT_GT(defect.report().at("largest_overlap_ratio").get<double>(), 0.0);
   EXPECT_LT(defect.closure(), kClosed);
 }
 
-// The boulder is on the net after 0.25 ms. The servos touch at other moments of a step where the
-// lid begins elsewhere.
-INSTANTIATE_TEST_SUITE_P(
-    All, DefectsOfRuns,
-    testing::Values(Case{"boulder",
-                         {"simulation.duration=5e-3", "materials.steel.young_modulus=1e8",
-                          "membranes.net.shape.apertures=[12, 12]", "membranes.net.density=400"}},
-                    Case{"glue", {"simulation.duration=2e-4"}}, Case{"fold", {}},
-                    Case{"fold_full_1399", {}}, Case{"spike_21146", {}}, Case{"servo0", {}},
-                    Case{"servo0", {"planes.lid.point=[0, 0, 0.05003]"}},
-                    Case{"servo0", {"planes.lid.point=[0, 0, 0.05011]"}},
-                    Case{"servo0", {"planes.lid.point=[0, 0, 0.05017]"}}, Case{"servo_95", {}},
-                    Case{"servo_1572", {}}, Case{"glued_in_a_groove", {}},
-                    Case{"flat_net", {"simulation.time_step=5e-6"}},
-                    Case{"cylinder_on_net", {"simulation.duration=0.01"}},
-                    Case{"laminate", {"simulation.time_step=5e-6"}}));
+// The servos touch at other moments of a step where the lid begins elsewhere.
+INSTANTIATE_TEST_SUITE_P(All, DefectsOfRuns,
+                         testing::Values(Case{"boulder", {"simulation.duration=5e-3"}},
+                                         Case{"glue", {"simulation.duration=2e-4"}},
+                                         Case{"fold", {}}, Case{"fold_full_1399", {}},
+                                         Case{"spike_21146", {}}, Case{"servo0", {}},
+                                         Case{"servo0", {"planes.lid.point=[0, 0, 0.05003]"}},
+                                         Case{"servo0", {"planes.lid.point=[0, 0, 0.05011]"}},
+                                         Case{"servo0", {"planes.lid.point=[0, 0, 0.05017]"}},
+                                         Case{"servo_95", {"simulation.duration=0.45"}},
+                                         Case{"servo_1572", {"simulation.duration=1"}},
+                                         Case{"glued_in_a_groove", {}},
+                                         Case{"flat_net", {"simulation.time_step=5e-6"}},
+                                         Case{"cylinder_on_net", {"simulation.duration=0.01"}},
+                                         Case{"laminate", {"simulation.time_step=5e-6"}}),
+                         test::name_of_parameter);
+
+// 26 kg at 4 m/s press a net in by four times the thickness of its wires: the contact is twice or
+// half as stiff from one step to the next, and a step that was chosen by one look in 64 steps was
+// above the limit of many moments. 30 J were made of 209 J (37 kJ once); a certificate is green
+// below 1 %. What is seen is 0.03 %, and 0.08 % at most with other densities from 300 to 800 kg/m³.
+TEST(Defects, ABoulderPressedDeepIntoANetMakesNoEnergy) {
+  const Defect defect("boulder",
+                      {"simulation.duration=0.03", "materials.steel.young_modulus=1e8",
+                       "membranes.net.shape.apertures=[12, 12]", "materials.steel.density=400"});
+
+  ASSERT_EQ(defect.outcome().exit_code, 0) << defect.outcome().err;
+  EXPECT_GT(defect.report().at("largest_overlap_ratio").get<double>(), 0.04);  // of 0.25 m
+  EXPECT_EQ(defect.report().at("pass_throughs").get<int>(), 0);
+  EXPECT_LT(defect.closure(), 0.005);
+}
 
 class DefectsOfChosenSteps : public testing::TestWithParam<const char*> {};
 
@@ -128,7 +145,8 @@ INSTANTIATE_TEST_SUITE_P(All, DefectsOfChosenSteps,
                          testing::Values("net_on_floor", "ring_on_floor", "wire_springs",
                                          "rings_in_each_other", "wire_through_plate", "crushed_box",
                                          "folded_nets", "weak_glue_on_planes", "ties_of_no_length",
-                                         "float_on_a_rope", "tubes_through_each_other"));
+                                         "float_on_a_rope", "tubes_through_each_other"),
+                         test::name_of_parameter);
 
 class DefectsOfFlatFalls : public testing::TestWithParam<const char*> {};
 
@@ -147,7 +165,8 @@ TEST_P(DefectsOfFlatFalls, ReboundAlikeHoweverThePlateIsCut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DefectsOfFlatFalls,
-                         testing::Values("flat_plates", "flat_plate_on_plane"));
+                         testing::Values("flat_plates", "flat_plate_on_plane"),
+                         test::name_of_parameter);
 
 // Each pair of a bar with a facet had a dashpot and a spring as if it were one contact, whatever its
 // part of the length: bars rebounded at 0.32 to 0.91.
@@ -247,7 +266,8 @@ INSTANTIATE_TEST_SUITE_P(
         Stacked{"continua",
                 {"membranes.upper.mode=\"continuum\"", "membranes.ground.mode=\"continuum\""},
                 0.01,
-                true}));
+                true}),
+    test::name_of_parameter);
 
 struct Refused {
   const char* name;
@@ -274,11 +294,13 @@ TEST_P(DefectsOfStarts, AreRefusedByRunAndToldByCheck) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, DefectsOfStarts,
-    testing::Values(Refused{"24_overlap_centres",
-                            "begins in grains.b at 1 place, deeper than both radii"},
-                    Refused{"gr_in_floor", "begins behind planes[0]"},
-                    Refused{"behind_plane_1108", "begin behind planes.top"},
-                    Refused{"x_thick", "begin behind planes.floor"}));
+    testing::Values(
+        Refused{"24_overlap_centres", "begins in grains.b at 1 place, deeper than both radii"},
+        Refused{"gr_in_floor", "begins behind planes[0]"},
+        Refused{"behind_plane_1108", "begin behind planes.top"},
+        Refused{"coinciding_sheets", "begins in membranes.b at 1 place, deeper than both radii"},
+        Refused{"x_thick", "begin behind planes.floor"}),
+    test::name_of_parameter);
 
 // 10 000 cells of which each is nearer than a thickness to a thousand others: some minutes if every
 // pair were asked.
@@ -291,7 +313,7 @@ TEST(Defects, ASheetThickerThanItsCellsIsSetUp) {
 }
 
 // Shells whose cores cross from 28 ms on: forces turn from one step to the next as what is the
-// shortest way out changes. 0.17 % is seen at the chosen step, 0.04 and 0.06 % at a half and a
+// shortest way out changes. 0.20 % is seen at the chosen step, 0.04 and 0.06 % at a half and a
 // quarter of it.
 TEST(Defects, ShellsThatCrossKeepTheirEnergyAndAreNotPassedOverInSilence) {
   const Defect defect("spin_20130", {});
