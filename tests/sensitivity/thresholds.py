@@ -5,6 +5,7 @@ Copies the sources, builds the program with each value, runs the scenes beside t
 energy that went through, each scene ends with other energies than with the value as it is. Takes minutes a threshold; not a part of CI.
 
 Usage: python3 thresholds.py ROOT FOLDER [--only NAME ...]; FOLDER keeps the copy and its build for the next time
+       python3 thresholds.py ROOT --check: only whether each is in the sources as it is here
 """
 
 import argparse
@@ -44,12 +45,19 @@ THRESHOLDS = (
     # A cosine: half and twice the angle.
     Threshold("contact/surface_surface/facing_facets.hpp", "kCosineOfCrossing", 0.9, ("stack", "drape"), "0.974679", "0.62"),
     Threshold("contact/surface_surface/pair_terms.hpp", "kMostRings", 64.0, ("stack", "drape")),
+    Threshold("contact/surface_surface/point_share.hpp", "kDepthOfCrossing", 2.0, ("stack", "drape")),
+    # Twice would give point contacts, for which both are the same, a kink.
+    Threshold("contact/surface_surface/structure_patches.hpp", "kLeastOfOne", 0.5, ("stack", "drape"), doubled="0.9"),
     # Twice is above what is stable.
     Threshold("dynamics/stiffness/nodal_stiffness.hpp", "kSafety", 0.65, ("catch", "stack"), doubled="0.79"),
     # Growth in a look, 10 %.
     Threshold("dynamics/time_step/step_chooser.hpp", "kGrowth", 1.1, ("catch", "stack"), "1.05", "1.2"),
-    Threshold("dynamics/time_step/step_chooser.hpp", "kLongestWay", 0.05, ("catch", "stack")),
+    Threshold("dynamics/time_step/step_chooser.hpp", "kLongestWay", 0.1, ("catch", "stack")),
+    Threshold("dynamics/time_step/step_chooser.hpp", "kStepsOfChange", 2, ("catch", "press")),
     Threshold("dynamics/time_step/step_chooser.cpp", "kLargestTurn", 1.0, ("catch", "stack")),
+    Threshold("dynamics/time_step/step_chooser.cpp", "kReleaseStep", 0.25, ("stack", "drape")),
+    Threshold("dynamics/time_step/step_chooser.cpp", "kLargestTurnOfBar", 0.125, ("catch", "drape")),
+    Threshold("dynamics/time_step/step_chooser.cpp", "kShortestBar", 0.03125, ("catch", "drape")),
     Threshold("dynamics/time_step/motion_step.hpp", "kLargestMotion", 0.1, ("catch", "stack")),
     Threshold("dynamics/time_step/expected_contacts.hpp", "kExpectedOverlap", 0.02, ("catch", "stack")),
     Threshold("dynamics/stiffness/spring_shares.cpp", "kLeast", 1e-3, ("catch", "press")),
@@ -116,12 +124,31 @@ def most_changed(before, after):
     return f"{100 * most:.2g} % ({FORMS[changes.index(most)]})" if most > 0.0 else "none"
 
 
+def as_in_sources(root, threshold):
+    """The value that the sources have; none if they do not say it once."""
+    said = re.findall(rf"\b{threshold.name} = ([^;]+);", (root / threshold.file).read_text(encoding="utf-8"))
+    factors = [float(part) for part in said[0].split("/")] if len(said) == 1 else []
+    return factors[0] / factors[1] if len(factors) == 2 else next(iter(factors), None)
+
+
+def check(root):
+    wrong = [(of, as_in_sources(root, of)) for of in THRESHOLDS if as_in_sources(root, of) != of.value]
+    for of, value in wrong:
+        print(f"{of.file}: {of.name} is {value}; expected {of.value}, as here")
+    return 1 if wrong else 0
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("root", type=Path)
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?")
     parser.add_argument("--only", nargs="*")
+    parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
+    if arguments.check:
+        sys.exit(check(arguments.root))
+    if arguments.folder is None:
+        parser.error("expected a folder for the copy and its build, or --check")
     copy = Copy(arguments.root.resolve(), arguments.folder.resolve())
     copy.make()
     as_is = copy.ends_of(sorted({scene for threshold in THRESHOLDS for scene in threshold.scenes}))

@@ -8,6 +8,7 @@
 #include "tests/apps/command_line/command_fixture.hpp"
 #include "tests/apps/run/frequent_outputs.hpp"
 #include "tests/support/mounted_folder.hpp"
+#include "tests/support/parameter_name.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -113,8 +114,8 @@ TEST_P(RemovedFolder, EndsARunWithOneMessageAndIsNotMadeAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AtAFrameOrACheckpoint, RemovedFolder,
-                         testing::Values("output.checkpoint_interval=1000",
-                                         "output.interval=1000"));
+                         testing::Values("output.checkpoint_interval=1000", "output.interval=1000"),
+                         test::name_of_parameter);
 
 /// Names of bodies and reactions are in files, and no part of the names of files.
 TEST_F(Command, RunWritesNowhereElseWhateverNamesAScenarioGives) {

@@ -143,7 +143,8 @@ TEST_P(FacingFacets, KeepForceAndMoment) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FacingFacets, ::testing::Values(1U, 2U, 3U));
+INSTANTIATE_TEST_SUITE_P(Seeds, FacingFacets, ::testing::Values(1U, 2U, 3U),
+                         ::testing::PrintToStringParamName());
 
 // A corner of one on a corner of the other, and sides at a small angle: where the sides cross moves
 // fast along them, and that is no reason for a force.

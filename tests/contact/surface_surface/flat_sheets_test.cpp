@@ -270,7 +270,9 @@ TEST(FlatSheets, FoldedOntoTheirMirrorImagePushAgainstTheGradientOfTheirEnergy) 
   }
 }
 
-TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
+// But for jumps where a rim passes over an edge: 5e-6 to 8e-6 N is seen whatever the step, some 0.5 %
+// of the force on a node.
+TEST(FlatSheets, ChangeTheirForcesInProportionToTheStepButForFoldsUnderRims) {
   Random random(6);
   const Body a = sheet(5, 5, 1.0, 1.0);
   for (const double bump : {0.0, 1e-5, 2e-4}) {
@@ -280,7 +282,7 @@ TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
       direction.emplace_back(0.3 * random.uniform(-1, 1), 0.3 * random.uniform(-1, 1),
                              random.uniform(-1, 1));
     double last = 0.0;
-    for (const double step : {1e-6, 1e-7, 1e-8}) {
+    for (const double step : {1e-5, 1e-6, 1e-7, 1e-8}) {
       StructurePair structure_pair(a, b, kRange);
       double largest = 0.0;
       std::vector<Vec3> before;
@@ -294,7 +296,7 @@ TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
         before = structure_pair.forces();
       }
       if (last > 0.0) {
-        EXPECT_LT(largest, std::max(0.15 * last, kFoldChange)) << bump << ' ' << step;
+        EXPECT_LT(largest, 0.1 * last + kFoldChange) << bump << ' ' << step;
       }
       last = largest;
     }

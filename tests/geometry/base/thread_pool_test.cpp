@@ -37,7 +37,8 @@ class ThreadPools : public testing::TestWithParam<int> {
   ThreadPool pool{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(ThreadCounts, ThreadPools, testing::Values(1, 2, 4, 7));
+INSTANTIATE_TEST_SUITE_P(ThreadCounts, ThreadPools, testing::Values(1, 2, 4, 7),
+                         testing::PrintToStringParamName());
 
 TEST_P(ThreadPools, HaveTheThreadsAskedFor) {
   EXPECT_EQ(pool.thread_count(), GetParam());

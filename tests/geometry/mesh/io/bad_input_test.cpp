@@ -2,6 +2,7 @@
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -119,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"more facets than announced",
                 kOff,
                 "OFF\n3 1 0\n" + kPoints + "3 0 1 2\n3 0 2 1\n",
-                {"line 7: expected the end of the file after 1 facets"}}));
+                {"line 7: expected the end of the file after 1 facets"}}),
+    test::name_of_parameter);
 
 INSTANTIATE_TEST_SUITE_P(
     Obj, BadMeshText,
@@ -139,7 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "v 0 0\n",
                 {"line 1: expected three coordinates", "end of the line"}},
         BadText{"nan", kObj, "v 0 nan 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {"line 1: point 1"}},
-        BadText{"facets without points", kObj, "f 1 2 3\n", {"the file has 0 points"}}));
+        BadText{"facets without points", kObj, "f 1 2 3\n", {"the file has 0 points"}}),
+    test::name_of_parameter);
 
 INSTANTIATE_TEST_SUITE_P(
     Stl, BadMeshText,
@@ -172,7 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"a word for a number",
                 kStl,
                 "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 o 0\n",
-                {"line 4", "'o'"}}));
+                {"line 4", "'o'"}}),
+    test::name_of_parameter);
 
 INSTANTIATE_TEST_SUITE_P(
     Ply, BadMeshText,
@@ -228,7 +232,8 @@ INSTANTIATE_TEST_SUITE_P(
                 kPly,
                 "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float "
                 "x\nproperty float y\nproperty float z\nend_header\n1234",
-                {"a coordinate of a point, got the end of the file"}}));
+                {"a coordinate of a point, got the end of the file"}}),
+    test::name_of_parameter);
 
 TEST(BadMeshInput, ReportsAllProblemsOfAFileTogether) {
   const std::string message =

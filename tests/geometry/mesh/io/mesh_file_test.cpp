@@ -6,6 +6,7 @@
 #include "geometry/mesh/io/text_scanner.hpp"
 #include "geometry/mesh/repair/repair.hpp"
 #include "tests/support/full_disk.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -39,12 +40,22 @@ Mesh awkward_mesh() {
   return mesh;
 }
 
-class EveryTextFormat : public ::testing::TestWithParam<MeshFormat> {};
+struct TextFormat {
+  MeshFormat format;
+  const char* name;
+};
+
+void PrintTo(const TextFormat& of, std::ostream* out) {
+  *out << of.name;
+}
+
+class EveryTextFormat : public ::testing::TestWithParam<TextFormat> {};
 
 TEST_P(EveryTextFormat, ReadsBackTheSameCoordinates) {
   const Mesh mesh = awkward_mesh();
 
-  const PolygonSoup read = parse_mesh(format_mesh(mesh, GetParam()), GetParam(), "mesh");
+  const PolygonSoup read =
+      parse_mesh(format_mesh(mesh, GetParam().format), GetParam().format, "mesh");
 
   EXPECT_EQ(positions(read), positions(to_soup(mesh)));
 }
@@ -52,14 +63,20 @@ TEST_P(EveryTextFormat, ReadsBackTheSameCoordinates) {
 TEST_P(EveryTextFormat, ReadsFilesWithWindowsLineEnds) {
   const Mesh mesh = icosphere(0.1, 0);
   std::string text;
-  for (const char c : format_mesh(mesh, GetParam())) text += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const char c : format_mesh(mesh, GetParam().format))
+    text += c == '\n' ? "\r\n" : std::string(1, c);
 
-  EXPECT_EQ(positions(parse_mesh(text, GetParam(), "mesh")), positions(to_soup(mesh)));
+  EXPECT_EQ(positions(parse_mesh(text, GetParam().format, "mesh")), positions(to_soup(mesh)));
 }
 
 INSTANTIATE_TEST_SUITE_P(MeshFile, EveryTextFormat,
-                         ::testing::Values(MeshFormat::off, MeshFormat::obj, MeshFormat::stl_ascii,
-                                           MeshFormat::ply, MeshFormat::gmsh, MeshFormat::vtp));
+                         ::testing::Values(TextFormat{MeshFormat::off, "off"},
+                                           TextFormat{MeshFormat::obj, "obj"},
+                                           TextFormat{MeshFormat::stl_ascii, "stl_ascii"},
+                                           TextFormat{MeshFormat::ply, "ply"},
+                                           TextFormat{MeshFormat::gmsh, "gmsh"},
+                                           TextFormat{MeshFormat::vtp, "vtp"}),
+                         test::name_of_parameter);
 
 TEST(MeshFile, KeepsBinaryStlToSinglePrecision) {
   const Mesh mesh = icosphere(0.1, 1);
