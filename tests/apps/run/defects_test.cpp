@@ -112,9 +112,9 @@ INSTANTIATE_TEST_SUITE_P(All, DefectsOfRuns,
                          test::name_of_parameter);
 
 // 26 kg at 4 m/s press a net in by four times the thickness of its wires: the contact is twice or
-// half as stiff from one step to the next, and a step that was chosen by one look in 64 steps was
-// above the limit of many moments. 30 J were made of 209 J (37 kJ once); a certificate is green
-// below 1 %. What is seen is 0.03 %, and 0.08 % at most with other densities from 300 to 800 kg/m³.
+// half as stiff from one step to the next, and one look in 64 steps is not one at the stiffest of
+// them. 30 J were made of 209 J (37 kJ once); a certificate is green below 1 %. What is seen is
+// 0.03 %, and 0.08 % at most with other densities from 300 to 800 kg/m³.
 TEST(Defects, ABoulderPressedDeepIntoANetMakesNoEnergy) {
   const Defect defect("boulder",
                       {"simulation.duration=0.03", "materials.steel.young_modulus=1e8",

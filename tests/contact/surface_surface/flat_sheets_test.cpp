@@ -270,8 +270,8 @@ TEST(FlatSheets, FoldedOntoTheirMirrorImagePushAgainstTheGradientOfTheirEnergy) 
   }
 }
 
-// But for jumps where a rim passes over an edge: 5e-6 to 8e-6 N is seen whatever the step, some 0.5 %
-// of the force on a node.
+// But for jumps where a rim passes over an edge: 5e-6 to 8e-6 N is seen whatever the step, 0.1 to
+// 0.2 % of the largest force on a node.
 TEST(FlatSheets, ChangeTheirForcesInProportionToTheStepButForFoldsUnderRims) {
   Random random(6);
   const Body a = sheet(5, 5, 1.0, 1.0);
