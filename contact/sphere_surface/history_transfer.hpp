@@ -63,8 +63,9 @@ class HistoryTransfer {
                                Transferred& to);
 
   /// How many contacts have gone on with the opposite normal in this step while the centre of the
-  /// sphere was by the core, less than half a radius away: a sphere passes through. (A small part of
-  /// the contact with what wraps a sphere may turn over too, where its pieces merge.)
+  /// sphere was by the core, no further than half a radius and the way of this step: a sphere passes
+  /// through. (A small part of the contact with what wraps a sphere may turn over too, where its
+  /// pieces merge.)
   std::int64_t pass_throughs() const noexcept { return pass_throughs_; }
 
  private:
