@@ -5,9 +5,7 @@
 
 namespace plekton::contact {
 
-static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasInteractionRange<AnyLaw> &&
-              HasAttraction<AnyLaw> && HasBonds<AnyLaw> && HasStart<AnyLaw> &&
-              TellsTangentialLimit<AnyLaw>);
+static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasInteractionRange<AnyLaw>);
 
 AnyLaw::Properties::Properties() noexcept {
   keep(LawTable<LinearFrictional>::functions, LinearFrictional::Properties{});

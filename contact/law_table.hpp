@@ -4,8 +4,6 @@
 #include "contact/law/any_law.hpp"
 #include "contact/shipped_laws.hpp"
 
-#include <limits>
-
 namespace plekton::contact {
 
 /// The functions of one law, on their numbers.
@@ -48,7 +46,7 @@ struct LawTable {
       .has_interaction_range = HasInteractionRange<Law>,
       .list_problems =
           [](const Properties& properties, std::ostream& out) {
-            contact::list_problems<Law>(properties.as<PropertiesOf<Law>>(), out);
+            Law::list_problems(properties.as<PropertiesOf<Law>>(), out);
           },
       .combine =
           [](const Properties& properties, const Body& a, const Body& b) {
@@ -65,26 +63,26 @@ struct LawTable {
       .tangential_stiffness = [](const Parameters& p,
                                  double gap) { return Law::tangential_stiffness(of(p), gap); },
       .normal_damping = [](const Parameters& p,
-                           double gap) { return normal_damping_of<Law>(of(p), gap); },
+                           double gap) { return Law::normal_damping(of(p), gap); },
       .interaction_range = [](const Parameters& p) { return interaction_range_of<Law>(of(p)); },
-      .attraction = [](const Parameters& p) { return attraction_of<Law>(of(p)); },
+      .attraction = [](const Parameters& p) { return Law::attraction(of(p)); },
       .without_attraction =
-          [](const Parameters& p) { return kept(contact::without_attraction<Law>(of(p))); },
+          [](const Parameters& p) { return kept(Law::without_attraction(of(p))); },
       .end_start =
           [](Properties& properties) {
             auto typed = properties.as<PropertiesOf<Law>>();
-            const bool changed = contact::end_start<Law>(typed);
+            const bool changed = Law::end_start(typed);
             properties.keep(self(), typed);
             return changed;
           },
-      .cements = [](const Parameters& p) { return contact::cements<Law>(of(p)); },
+      .cements = [](const Parameters& p) { return Law::cements(of(p)); },
       .cement =
           [](const Parameters& p, History& history) {
-            change(history, [&](LawHistory& typed) { contact::cement<Law>(of(p), typed); });
+            change(history, [&](LawHistory& typed) { Law::cement(of(p), typed); });
           },
-      .of_bond = [](const Parameters& p) { return kept(contact::of_bond<Law>(of(p))); },
+      .of_bond = [](const Parameters& p) { return kept(Law::of_bond(of(p))); },
       .unbonded_part = [](const Parameters& p,
-                          double part) { return kept(contact::unbonded_part<Law>(of(p), part)); },
+                          double part) { return kept(Law::unbonded_part(of(p), part)); },
       .force =
           [](const Parameters& p, const RelativeMotion& motion, History& history, double dt) {
             LawHistory typed = own(history);
@@ -94,9 +92,7 @@ struct LawTable {
           },
       .tangential_limit =
           [](const Parameters& p, double elastic_force, const History& history) {
-            if constexpr (TellsTangentialLimit<Law>)
-              return Law::tangential_limit(of(p), elastic_force, own(history));
-            return std::numeric_limits<double>::infinity();
+            return Law::tangential_limit(of(p), elastic_force, own(history));
           },
       .history_energy = [](const Parameters& p, const History& history) -> double {
         return Law::history_energy(of(p), own(history));
@@ -114,7 +110,7 @@ struct LawTable {
           },
       .scale_history =
           [](History& history, double factor) {
-            change(history, [&](LawHistory& typed) { contact::scale_history<Law>(typed, factor); });
+            change(history, [&](LawHistory& typed) { Law::scale_history(typed, factor); });
           },
       .accumulate_history =
           [](History& history, const History& other, double share) {

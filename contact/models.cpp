@@ -30,7 +30,7 @@ bool list_law_problems(const AnyLaw::Properties& properties, const std::string& 
     return false;
   }
   std::ostringstream own;
-  properties.law->list_problems(properties, own);
+  AnyLaw::list_problems(properties, own);
   add_lines(whose + ", law " + std::string(properties.law->name) + ": ", own.str(), problems);
   return true;
 }

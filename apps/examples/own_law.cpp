@@ -13,7 +13,7 @@ using namespace plekton;
 
 /// Loads with k1, unloads and loads again with k2 from the deepest point on: the restitution is
 /// sqrt(k1 / k2). No friction.
-struct WaltonBraun {
+struct WaltonBraun : contact::LawDefaults {
   static constexpr std::string_view name = "walton_braun";
   static constexpr double kRatio = 4.0;  ///< k2 / k1
   struct Parameters {

@@ -26,6 +26,7 @@ struct LinearButForSomePairs : contact::LinearFrictional {
   struct Properties {
     bool touch = true;
   };
+  using contact::LawDefaults::list_problems;  // those of the linear law are of its own properties
   static Parameters combine(const Properties& pair, const contact::Body& a,
                             const contact::Body& b) noexcept {
     return pair.touch ? contact::LinearFrictional::combine(a, b) : Parameters{0.0, 0.0, 0.0};

@@ -30,7 +30,7 @@ template <class Real>
 struct ContactForceOf {
   Vec3Of<Real> force;  ///< N, on body b; the elastic normal force included
   Real dissipated;     ///< J, during this step, by friction or viscosity
-  /// N m, on body b; a gets the opposite. Zero but for laws that say has_moments.
+  /// N m, on body b; a gets the opposite. Zero but for laws that say moment().
   Vec3Of<Real> moment = Vec3Of<Real>::Zero();
 };
 using ContactForce = ContactForceOf<double>;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/bonds.hpp"
 #include "contact/law/contact_law.hpp"
 #include "geometry/base/copy_bits.hpp"
 
@@ -27,7 +26,6 @@ struct SphereWork;
 /// are, those of one law go through a loop that knows it as a type (contact/law_table.hpp).
 struct AnyLaw {
   static constexpr std::string_view name = "any_law";
-  static constexpr bool has_moments = true;
 
   struct Functions;
 
@@ -79,8 +77,8 @@ struct AnyLaw {
     std::string_view name;
     std::size_t parameter_numbers;  ///< how many numbers its parameters are
     std::size_t history_numbers;
-    bool has_interaction_range;                               ///< see HasInteractionRange
-    void (*list_problems)(const Properties&, std::ostream&);  ///< see ChecksProperties
+    bool has_interaction_range;  ///< see HasInteractionRange
+    void (*list_problems)(const Properties&, std::ostream&);
     Parameters (*combine)(const Properties&, const Body&, const Body&);
     Parameters (*scaled)(const Parameters&, double);
     double (*elastic_normal_force)(const Parameters&, double);
@@ -138,7 +136,9 @@ struct AnyLaw {
     return p.law->tangential_stiffness(p, gap);
   }
 
-  /// See DampsNormally.
+  static void list_problems(const Properties& properties, std::ostream& out) {
+    properties.law->list_problems(properties, out);
+  }
   static double normal_damping(const Parameters& p, double gap) {
     return p.law->normal_damping(p, gap);
   }
@@ -149,11 +149,9 @@ struct AnyLaw {
     return history.law != nullptr && history.law->holds(history);
   }
 
-  /// See HasAttraction.
   static double attraction(const Parameters& p) { return p.law->attraction(p); }
   static Parameters without_attraction(const Parameters& p) { return p.law->without_attraction(p); }
 
-  /// See HasStart and HasBonds.
   static bool end_start(Properties& properties) { return properties.law->end_start(properties); }
   static bool cements(const Parameters& p) { return p.law->cements(p); }
   static void cement(const Parameters& p, History& history) { p.law->cement(p, history); }
@@ -170,7 +168,7 @@ struct AnyLaw {
   static Vec3 moment(const History& history, const Vec3& normal) {
     return history.law == nullptr ? Vec3(Vec3::Zero()) : history.law->moment(history, normal);
   }
-  /// See TellsTangentialLimit; infinite of a law that does not tell, and of a new history.
+  /// Infinite of a new history too.
   static double tangential_limit(const Parameters& p, double elastic_force,
                                  const History& history) {
     return history.law != p.law ? std::numeric_limits<double>::infinity()
@@ -179,14 +177,12 @@ struct AnyLaw {
   static double history_energy(const Parameters& p, const History& history) {
     return history.law != p.law ? 0.0 : p.law->history_energy(p, history);
   }
-  /// See TellsOtherForce.
   static Vec3 other_force(const Parameters& p, const Vec3& normal, const History& history) {
     return history.law != p.law ? Vec3(Vec3::Zero()) : p.law->other_force(p, normal, history);
   }
   static void rotate(History& history, const FrameRotation& rotation) {
     if (history.law != nullptr) history.law->rotate(history, rotation);
   }
-  /// See ScalesHistory.
   static void scale_history(History& history, double factor) {
     if (history.law != nullptr) history.law->scale_history(history, factor);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/bonds.hpp"
 #include "contact/law/linear_frictional.hpp"
 #include "contact/law/tangential_spring.hpp"
 
@@ -24,7 +23,7 @@ namespace plekton::contact {
 /// On a surface a sphere has one bond for every contact, at its representative point. Between
 /// structures the bonds of a contact together are as many as the contacts it counts for, each a
 /// spring between two material points.
-struct CohesiveFrictional {
+struct CohesiveFrictional : LawDefaults {
   static constexpr std::string_view name = "cohesive_frictional";
 
   struct Properties {
@@ -35,7 +34,6 @@ struct CohesiveFrictional {
     LinearFrictional::Properties elastic = {};
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
@@ -106,14 +104,13 @@ struct CohesiveFrictional {
     return history.bond;
   }
 
-  /// See HasStart.
   static bool end_start(Properties& properties) noexcept {
     if (properties.bonds != Bonds::at_start) return false;
     properties.bonds = Bonds::none;
     return true;
   }
 
-  /// See HasBonds. A bond without strength is none.
+  /// A bond without strength is none.
   static bool cements(const Parameters& p) noexcept {
     return p.glues > 0.0 && (p.tension > 0.0 || p.shear > 0.0);
   }
@@ -171,7 +168,6 @@ struct CohesiveFrictional {
     return total_force(elastic_normal_force(p, gap), normal, history);
   }
 
-  /// See TellsTangentialLimit.
   static double tangential_limit(const Parameters& p, double elastic_force,
                                  const History& history) noexcept {
     return shear_limit(p, history, elastic_force + history.pull);
@@ -199,7 +195,6 @@ struct CohesiveFrictional {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
-  /// See ScalesHistory.
   static void scale_history(History& history, double factor) noexcept {
     history.spring.scale_history(factor);
     history.pull *= factor;
@@ -323,6 +318,5 @@ struct CohesiveFrictional {
 };
 
 static_assert(ContactLaw<CohesiveFrictional>);
-static_assert(HasBonds<CohesiveFrictional> && HasStart<CohesiveFrictional>);
 
 }  // namespace plekton::contact

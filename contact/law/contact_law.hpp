@@ -4,6 +4,7 @@
 #include "contact/base/material.hpp"
 #include "contact/base/relative_motion.hpp"
 #include "contact/base/rotation.hpp"
+#include "contact/law/law_defaults.hpp"
 
 #include <concepts>
 #include <iosfwd>
@@ -46,14 +47,6 @@ typename Law::Parameters combine(const PropertiesOf<Law>& properties, const Body
   }
 }
 
-/// Whether a law answers with moments too; contacts under the others do not look at them. Such a
-/// law also tells the moment (N m, on b) of the last step from the history and the normal then:
-/// moment(history, normal).
-template <class Law>
-concept HasMoments = requires {
-  requires Law::has_moments;
-};
-
 /// What a contact law is: stateless functions of parameters, relative motion and history. It never
 /// sees a shape.
 ///
@@ -64,18 +57,21 @@ concept HasMoments = requires {
 /// filled by members of their own, have the same state there too.
 ///
 /// Its functions must not throw: loops over contacts run in several threads and end the program
-/// then. What is wrong with properties is said before (ChecksProperties). Stiffnesses and forces are
-/// finite. They are called at any time and from any thread, so that they keep nothing beside the
-/// history.
+/// then. What is wrong with properties is said before, by list_problems(). Stiffnesses and forces
+/// are finite. They are called at any time and from any thread, so that they keep nothing beside
+/// the history.
 ///
 /// The elastic normal force depends on the gap alone and is summed over the features of a patch by
 /// the contact rule; everything else (friction, viscosity, cohesion) is decided once per patch by
 /// force().
+///
+/// What it has nothing to say about it takes from LawDefaults, which it derives from.
 template <class Law>
 concept ContactLaw = requires(const typename Law::Parameters& parameters,
                               const RelativeMotion& motion, typename Law::History& history,
                               const typename Law::History& other, const Body& body,
-                              const FrameRotation& rotation, double number) {
+                              const FrameRotation& rotation, double number, const Vec3& vector,
+                              PropertiesOf<Law>& properties, std::ostream& out) {
   { Law::name } -> std::convertible_to<std::string_view>;
   /// Parameters of a pair of bodies. A law with a type Properties takes them first.
   { combine<Law>(PropertiesOf<Law>{}, body, body) } -> std::same_as<typename Law::Parameters>;
@@ -94,68 +90,42 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   { Law::tangential_stiffness(parameters, number) } -> std::same_as<double>;
   /// Turns the history with the contact frame.
   { Law::rotate(history, rotation) } -> std::same_as<void>;
-  /// Adds a share of another contact's history: how contacts split and merge. A negative one is of a
-  /// contact whose bodies are the other way round: what points along the contact turns round with
+  /// Adds a share of another contact's history: how contacts split and merge. A negative one is of
+  /// a contact whose bodies are the other way round: what points along the contact turns round with
   /// it, what goes along the normal does not.
   { Law::accumulate_history(history, other, number) } -> std::same_as<void>;
-};
 
-/// A law whose history is that of all contacts side by side, as forces are: scale_history(history,
-/// factor) makes it that of as many times as many, each as before (scaled()). Of a law without it
-/// the history is that of each, as slips are.
-template <class Law>
-concept ScalesHistory = requires(typename Law::History& history, double factor) {
-  { Law::scale_history(history, factor) } -> std::same_as<void>;
-};
-
-template <class Law>
-void scale_history(typename Law::History& history, double factor) {
-  if constexpr (ScalesHistory<Law>) Law::scale_history(history, factor);
-}
-
-/// A law that knows what is wrong with its properties: list_problems(properties, out) writes a line
-/// for each of it, which begins with what is wrong and ends in a line end. Asked when contacts are
-/// made; they are not, where there is any.
-template <class Law>
-concept ChecksProperties = requires(const PropertiesOf<Law>& properties, std::ostream& out) {
-  { Law::list_problems(properties, out) } -> std::same_as<void>;
-};
-
-template <class Law>
-void list_problems(const PropertiesOf<Law>& properties, std::ostream& out) {
-  if constexpr (ChecksProperties<Law>) Law::list_problems(properties, out);
-}
-
-/// A law whose force after a step follows from the gap (m), the normal and the history then: it
-/// does not have to be kept. To the bit what force() has answered; and at a gap of 0, where the
-/// elastic normal force is none, all else of it.
-template <class Law>
-concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
-                              const Vec3& normal, const typename Law::History& history) {
-  { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
-};
-
-/// A law that tells what it has beside the elastic normal force after a step, though maybe not its
-/// whole force: other_force(parameters, normal, history) (N, on b).
-template <class Law>
-concept TellsOtherForce = requires(const typename Law::Parameters& parameters, const Vec3& normal,
-                                   const typename Law::History& history) {
-  { Law::other_force(parameters, normal, history) } -> std::same_as<Vec3>;
-};
-
-/// Force (N, on b) of the last step but for the elastic normal one; zero of a law that does not
-/// tell it.
-template <class Law>
-Vec3 other_force(const typename Law::Parameters& parameters, const Vec3& normal,
-                 const typename Law::History& history) {
-  if constexpr (TellsOtherForce<Law>) {
-    return Law::other_force(parameters, normal, history);
-  } else if constexpr (TellsForce<Law>) {
-    return Law::force_of_state(parameters, 0.0, normal, history);
-  } else {
-    return Vec3::Zero();
+  // One that is written for moments has them told (HasMoments).
+  requires !requires {
+    requires Law::has_moments;
   }
-}
+  || requires(const Vec3& normal) {
+    Law::moment(other, normal);
+  };
+
+  // See LawDefaults.
+  { Law::list_problems(properties, out) } -> std::same_as<void>;
+  { Law::normal_damping(parameters, number) } -> std::same_as<double>;
+  { Law::tangential_limit(parameters, number, other) } -> std::same_as<double>;
+  { Law::other_force(parameters, vector, other) } -> std::same_as<Vec3>;
+  { Law::scale_history(history, number) } -> std::same_as<void>;
+  { Law::attraction(parameters) } -> std::same_as<double>;
+  { Law::without_attraction(parameters) } -> std::same_as<typename Law::Parameters>;
+  { Law::end_start(properties) } -> std::same_as<bool>;
+  { Law::cements(parameters) } -> std::same_as<bool>;
+  { Law::cement(parameters, history) } -> std::same_as<void>;
+  { Law::of_bond(parameters) } -> std::same_as<typename Law::Parameters>;
+  { Law::unbonded_part(parameters, number) } -> std::same_as<typename Law::Parameters>;
+};
+
+// What loops are compiled without for a law that does not have it.
+
+/// A law that answers with moments too, and tells the moment (N m, on b) of the last step from the
+/// history and the normal then: moment(history, normal).
+template <class Law>
+concept HasMoments = requires(const typename Law::History& history, const Vec3& normal) {
+  { Law::moment(history, normal) } -> std::same_as<Vec3>;
+};
 
 /// N m, on b, of the last step.
 template <class Law>
@@ -167,13 +137,25 @@ Vec3 moment_of(const typename Law::History& history, const Vec3& normal) {
   }
 }
 
-/// A law that tells how large (N) the tangential force may be, from the parameters, the magnitude
-/// of the elastic normal force and the history.
+/// A law whose force after a step follows from the gap (m), the normal and the history then: it
+/// does not have to be kept. To the bit what force() has answered; and at a gap of 0, where the
+/// elastic normal force is none, all else of it.
 template <class Law>
-concept TellsTangentialLimit = requires(const typename Law::Parameters& parameters, double force,
-                                        const typename Law::History& history) {
-  { Law::tangential_limit(parameters, force, history) } -> std::same_as<double>;
+concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
+                              const Vec3& normal, const typename Law::History& history) {
+  { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
 };
+
+/// Force (N, on b) of the last step but for the elastic normal one, as far as the law tells it.
+template <class Law>
+Vec3 other_force(const typename Law::Parameters& parameters, const Vec3& normal,
+                 const typename Law::History& history) {
+  if constexpr (TellsForce<Law>) {
+    return Law::force_of_state(parameters, 0.0, normal, history);
+  } else {
+    return Law::other_force(parameters, normal, history);
+  }
+}
 
 /// A law whose contacts may go on over a distance, because the bodies stick to each other.
 ///
@@ -186,22 +168,6 @@ concept HasInteractionRange = requires(const typename Law::Parameters& parameter
   { Law::holds(history) } -> std::same_as<bool>;
 };
 
-/// A law that damps motion along the normal: normal_damping(parameters, gap) (N s/m).
-template <class Law>
-concept DampsNormally = requires(const typename Law::Parameters& parameters, double gap) {
-  { Law::normal_damping(parameters, gap) } -> std::same_as<double>;
-};
-
-/// N s/m, 0 for laws that do not damp.
-template <class Law>
-double normal_damping_of(const typename Law::Parameters& parameters, double gap) {
-  if constexpr (DampsNormally<Law>) {
-    return Law::normal_damping(parameters, gap);
-  } else {
-    return 0.0;
-  }
-}
-
 /// m, 0 for laws that only push.
 template <class Law>
 double interaction_range_of(const typename Law::Parameters& parameters) {
@@ -209,37 +175,6 @@ double interaction_range_of(const typename Law::Parameters& parameters) {
     return Law::interaction_range(parameters);
   } else {
     return 0.0;
-  }
-}
-
-/// A law under which bodies that touch attract each other with a force that does not depend on how
-/// deep. force() and history_energy() have it too; surfaces and structures, whose contacts are
-/// counted, take it from here instead and give the law parameters without it.
-///
-/// attraction(parameters): the force (N), >= 0; without_attraction(parameters): the same but for
-/// it.
-template <class Law>
-concept HasAttraction = requires(const typename Law::Parameters& parameters) {
-  { Law::attraction(parameters) } -> std::same_as<double>;
-  { Law::without_attraction(parameters) } -> std::same_as<typename Law::Parameters>;
-};
-
-/// N, 0 for laws without one.
-template <class Law>
-double attraction_of(const typename Law::Parameters& parameters) {
-  if constexpr (HasAttraction<Law>) {
-    return Law::attraction(parameters);
-  } else {
-    return 0.0;
-  }
-}
-
-template <class Law>
-typename Law::Parameters without_attraction(const typename Law::Parameters& parameters) {
-  if constexpr (HasAttraction<Law>) {
-    return Law::without_attraction(parameters);
-  } else {
-    return parameters;
   }
 }
 

@@ -16,14 +16,13 @@ namespace plekton::contact {
 /// A surface that a sphere meets counts as held: of a light free membrane the restitution is lower.
 /// The push follows the speed of half a step before, which costs time steps where a heavy sphere
 /// meets light nodes.
-struct Dashpot {
+struct Dashpot : PartDefaults {
   static constexpr std::string_view name = "dashpot";
 
   struct Properties {
     double damping_ratio = 0.0;  ///< xi >= 0; properties_of() of law_list.hpp takes a restitution
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
@@ -48,7 +47,6 @@ struct Dashpot {
   /// The dashpot is one for a contact as a whole, not for its bonds.
   static Parameters of_bond(const Parameters&) noexcept { return {0.0}; }
 
-  /// See PartDamps.
   static double normal_damping(const Parameters& p, const ContactStiffness& stiffness) noexcept {
     return p.strength * std::sqrt(stiffness.normal);
   }
@@ -65,7 +63,6 @@ struct Dashpot {
             Real(-0.5) * (before + history.push) * motion.gap_rate * Real(dt)};
   }
 
-  /// See PartTellsForce.
   static Vec3 force_of_state(const History& history, const Vec3& normal) noexcept {
     return history.push * normal;
   }
@@ -81,7 +78,6 @@ struct Dashpot {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.push = rotation.along_normal(history.push);
   }
-  /// See PartScalesHistory.
   static void scale_history(History& history, double factor) noexcept { history.push *= factor; }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.push += std::abs(share) * other.push;

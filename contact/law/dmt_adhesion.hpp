@@ -24,14 +24,13 @@ namespace plekton::contact {
 /// The force jumps where bodies come to touch or part. In the energy of a step of length dt that is
 /// an error up to F v dt / 2 of either sign, with F all attraction that begins at once and v the
 /// speed of approach: sheets that fall flat on each other want short steps.
-struct DmtAdhesion {
+struct DmtAdhesion : LawDefaults {
   static constexpr std::string_view name = "dmt_adhesion";
 
   struct Properties {
     double work_of_adhesion = 0.0;  ///< J/m², w, >= 0
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
@@ -65,7 +64,6 @@ struct DmtAdhesion {
     return HertzMindlin::elastic_normal_energy(p.elastic, gap);
   }
 
-  /// See HasAttraction.
   static double attraction(const Parameters& p) noexcept { return p.attraction; }
   static Parameters without_attraction(const Parameters& p) noexcept { return {p.elastic, 0.0}; }
 
@@ -86,7 +84,6 @@ struct DmtAdhesion {
     return elastic - pull(p, history) * normal;
   }
 
-  /// See TellsTangentialLimit.
   static double tangential_limit(const Parameters& p, double elastic_force,
                                  const History& history) noexcept {
     return HertzMindlin::tangential_limit(p.elastic, elastic_force, history.elastic);
@@ -116,7 +113,6 @@ struct DmtAdhesion {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     HertzMindlin::rotate(history.elastic, rotation);
   }
-  /// See ScalesHistory.
   static void scale_history(History& history, double factor) noexcept {
     HertzMindlin::scale_history(history.elastic, factor);
   }

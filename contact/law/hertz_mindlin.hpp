@@ -18,7 +18,7 @@ namespace plekton::contact {
 ///
 /// Of an ellipse the ratio of both stiffnesses is taken as that of a circle: it depends on the
 /// direction of the slip, little unless the ellipse is long (Johnson, section 7.2).
-struct HertzMindlin {
+struct HertzMindlin : LawDefaults {
   static constexpr std::string_view name = "hertz_mindlin";
 
   template <class Real>
@@ -81,7 +81,6 @@ struct HertzMindlin {
     return elastic_normal_force(p, gap) * normal + history.spring.force;
   }
 
-  /// See TellsTangentialLimit.
   static double tangential_limit(const Parameters& p, double elastic_force,
                                  const History&) noexcept {
     return p.friction * elastic_force;
@@ -109,7 +108,6 @@ struct HertzMindlin {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
-  /// See ScalesHistory.
   static void scale_history(History& history, double factor) noexcept {
     history.spring.scale_history(factor);
   }

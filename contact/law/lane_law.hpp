@@ -10,25 +10,16 @@ namespace plekton::contact {
 
 using geometry::Pack;
 
-/// A law with a reach that tells it of contacts side by side as well, and who holds: hold(history)
-/// is positive where bodies stick to each other.
-template <class Law>
-concept HasLaneInteractionRange =
-    requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
-             const typename Law::template HistoryOf<Pack<2>>& history) {
-  { Law::interaction_range(parameters) } -> std::same_as<Pack<2>>;
-  { Law::hold(history) } -> std::same_as<Pack<2>>;
-};
-
 /// A law written for any Real: it may be asked about contacts side by side. Its ParametersOf and
 /// HistoryOf consist of Reals and Vec3Of<Real> only, and nothing in them branches. What it answers
-/// to lanes that do not touch may be any number, also none.
+/// to lanes that do not touch may be any number, also none. One with a reach (HasInteractionRange)
+/// tells that side by side as well, and who holds: hold(history) is positive where bodies stick to
+/// each other.
 ///
 /// All numbers of a new history are 0, and one turned from the normal 0 stays new: rotate() is
 /// linear in what it turns.
 template <class Law>
-concept LaneLaw = ContactLaw<Law> &&
-    (!HasInteractionRange<Law> || HasLaneInteractionRange<Law>)&&requires(
+concept LaneLaw = ContactLaw<Law> && requires(
         const typename Law::template ParametersOf<Pack<2>>& parameters,
         const RelativeMotionOf<Pack<2>>& motion, typename Law::template HistoryOf<Pack<2>>& history,
         const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
@@ -42,6 +33,10 @@ concept LaneLaw = ContactLaw<Law> &&
   { Law::force(parameters, motion, history, 1.0) } -> std::same_as<ContactForceOf<Pack<2>>>;
   { Law::history_energy(parameters, history) } -> std::same_as<Pack<2>>;
   Law::rotate(history, rotation);
+  requires !HasInteractionRange<Law> || requires {
+    { Law::interaction_range(parameters) } -> std::same_as<Pack<2>>;
+    { Law::hold(history) } -> std::same_as<Pack<2>>;
+  };
 };
 
 /// goes_on() side by side: positive where a contact with this history goes on at a gap (m) that is

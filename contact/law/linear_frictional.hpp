@@ -18,7 +18,7 @@ namespace plekton::contact {
 /// al., Geotextiles and Geomembranes 44 (2016), 2. R of a facet is half its thickness: a wall of
 /// half thickness 1 mm is as soft as a grain of 1 mm, whatever touches it. Properties of a pair of
 /// materials say otherwise.
-struct LinearFrictional {
+struct LinearFrictional : LawDefaults {
   static constexpr std::string_view name = "linear_frictional";
 
   /// With what radius a sheet stands in E R.
@@ -36,7 +36,6 @@ struct LinearFrictional {
     friend bool operator==(const Properties&, const Properties&) = default;
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
@@ -121,7 +120,6 @@ struct LinearFrictional {
     return elastic_force(p, elastic_normal_force(p, gap), normal, history);
   }
 
-  /// See TellsTangentialLimit.
   static double tangential_limit(const Parameters& p, double elastic_force,
                                  const History&) noexcept {
     return p.friction * elastic_force;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is wrong with the properties of the laws that come with the library (ChecksProperties).
+// What is wrong with the properties of the laws that come with the library.
 #include "contact/law/cohesive_frictional.hpp"
 #include "contact/law/dashpot.hpp"
 #include "contact/law/dmt_adhesion.hpp"

@@ -46,7 +46,7 @@ class MaterialPairs {
     return own == properties_.end() ? others_ : own->second;
   }
 
-  /// From now on contacts are not those of the first step (HasStart).
+  /// From now on contacts are not those of the first step (end_start()).
   /// @returns whether that changed any pair
   bool end_start() {
     bool changed = AnyLaw::end_start(others_);

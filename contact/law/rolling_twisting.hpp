@@ -17,9 +17,8 @@ namespace plekton::contact {
 /// Stiffness alpha R_a R_b k_s (N m/rad), with the tangential stiffness k_s of the contact; the
 /// moment is limited to eta min(R_a, R_b) times the normal force. Bourrier, Kneib, Chareyre &
 /// Fourcaud, Ecological Engineering 61 (2013) 646-657.
-struct RollingTwisting {
+struct RollingTwisting : PartDefaults {
   static constexpr std::string_view name = "rolling_twisting";
-  static constexpr bool has_moments = true;
 
   struct Properties {
     double rolling_stiffness = 0.0;                                   ///< alpha of rolling, >= 0
@@ -28,7 +27,6 @@ struct RollingTwisting {
     double twisting_limit = std::numeric_limits<double>::infinity();  ///< eta of twisting, >= 0
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
@@ -96,14 +94,12 @@ struct RollingTwisting {
     return {Vec3Of<Real>::Zero(), of_rolling + of_twisting, moment(history, motion.normal)};
   }
 
-  /// See HasMoments.
   template <class Real>
   PLEKTON_INLINE static Vec3Of<Real> moment(
       const HistoryOf<Real>& history, const std::type_identity_t<Vec3Of<Real>>& normal) noexcept {
     return history.rolling + history.twisting * normal;
   }
 
-  /// See PartTellsForce.
   static Vec3 force_of_state(const History&, const Vec3&) noexcept { return Vec3::Zero(); }
 
   template <class Real>
@@ -135,7 +131,6 @@ struct RollingTwisting {
     history.rolling = rotation(history.rolling);
     history.twisting = rotation.along_normal(history.twisting);
   }
-  /// See PartScalesHistory.
   static void scale_history(History& history, double factor) noexcept {
     history.rolling *= factor;
     history.twisting *= factor;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/bonds.hpp"
 #include "contact/law/contact_part.hpp"
 
 #include <type_traits>
@@ -40,17 +39,15 @@ concept HasNumbersOf = requires {
 template <ContactLaw Whole, ContactPart Part>
 struct Sum {
   static constexpr std::string_view name = Whole::name;
-  static constexpr bool has_moments = HasMoments<Whole> || HasMoments<Part>;
 
   struct Properties {
     PropertiesOf<Whole> whole;
     PropertiesOf<Part> part;
   };
 
-  /// See ChecksProperties.
   static void list_problems(const Properties& properties, std::ostream& out) {
-    contact::list_problems<Whole>(properties.whole, out);
-    contact::list_problems<Part>(properties.part, out);
+    Whole::list_problems(properties.whole, out);
+    Part::list_problems(properties.part, out);
   }
 
   // Not by a requires-clause: clang 14 crashes on that of a template within a template.
@@ -100,25 +97,21 @@ struct Sum {
     return Whole::hold(history.whole);
   }
 
-  /// See HasAttraction.
-  static double attraction(const Parameters& p) { return attraction_of<Whole>(p.whole); }
+  static double attraction(const Parameters& p) { return Whole::attraction(p.whole); }
   static Parameters without_attraction(const Parameters& p) {
-    return {contact::without_attraction<Whole>(p.whole), p.part};
+    return {Whole::without_attraction(p.whole), p.part};
   }
 
-  /// See HasStart and HasBonds.
-  static bool end_start(Properties& properties) {
-    return contact::end_start<Whole>(properties.whole);
-  }
-  static bool cements(const Parameters& p) { return contact::cements<Whole>(p.whole); }
+  static bool end_start(Properties& properties) { return Whole::end_start(properties.whole); }
+  static bool cements(const Parameters& p) { return Whole::cements(p.whole); }
   static void cement(const Parameters& p, History& history) {
-    contact::cement<Whole>(p.whole, history.whole);
+    Whole::cement(p.whole, history.whole);
   }
   static Parameters of_bond(const Parameters& p) {
-    return {contact::of_bond<Whole>(p.whole), part_of_bond<Part>(p.part)};
+    return {Whole::of_bond(p.whole), Part::of_bond(p.part)};
   }
   static Parameters unbonded_part(const Parameters& p, double part) {
-    return {contact::unbonded_part<Whole>(p.whole, part), part_unbonded<Part>(p.part, part)};
+    return {Whole::unbonded_part(p.whole, part), Part::unbonded_part(p.part, part)};
   }
 
   template <class Real>
@@ -132,29 +125,24 @@ struct Sum {
             whole.moment + part.moment};
   }
 
-  /// See TellsForce.
   static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
-                             const History& history) noexcept requires TellsForce<Whole> &&
-      PartTellsForce<Part> {
+                             const History& history) noexcept requires TellsForce<Whole> {
     return Whole::force_of_state(p.whole, gap, normal, history.whole) +
            Part::force_of_state(history.part, normal);
   }
 
-  /// See TellsOtherForce.
   static Vec3 other_force(const Parameters& p, const Vec3& normal, const History& history) {
-    Vec3 force = contact::other_force<Whole>(p.whole, normal, history.whole);
-    if constexpr (PartTellsForce<Part>) force += Part::force_of_state(history.part, normal);
-    return force;
+    return contact::other_force<Whole>(p.whole, normal, history.whole) +
+           Part::force_of_state(history.part, normal);
   }
 
-  /// See HasMoments.
-  static Vec3 moment(const History& history, const Vec3& normal) {
+  static Vec3 moment(const History& history, const Vec3& normal) requires HasMoments<Whole> ||
+      HasMoments<Part> {
     return moment_of<Whole>(history.whole, normal) + moment_of<Part>(history.part, normal);
   }
 
-  /// See TellsTangentialLimit.
   static double tangential_limit(const Parameters& p, double elastic_force,
-                                 const History& history) requires TellsTangentialLimit<Whole> {
+                                 const History& history) {
     return Whole::tangential_limit(p.whole, elastic_force, history.whole);
   }
 
@@ -176,11 +164,8 @@ struct Sum {
     return effective(p, gap).tangential;
   }
 
-  /// See DampsNormally.
   static double normal_damping(const Parameters& p, double gap) noexcept {
-    double damping = normal_damping_of<Whole>(p.whole, gap);
-    if constexpr (PartDamps<Part>) damping += Part::normal_damping(p.part, stiffness(p, gap));
-    return damping;
+    return Whole::normal_damping(p.whole, gap) + Part::normal_damping(p.part, stiffness(p, gap));
   }
 
   template <class Real>
@@ -189,10 +174,9 @@ struct Sum {
     Whole::rotate(history.whole, rotation);
     Part::rotate(history.part, rotation);
   }
-  /// See ScalesHistory.
   static void scale_history(History& history, double factor) noexcept {
-    contact::scale_history<Whole>(history.whole, factor);
-    if constexpr (PartScalesHistory<Part>) Part::scale_history(history.part, factor);
+    Whole::scale_history(history.whole, factor);
+    Part::scale_history(history.part, factor);
   }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     Whole::accumulate_history(history.whole, other.whole, share);
@@ -209,11 +193,7 @@ struct Sum {
   template <class Real>
   PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
       const ParametersOf<Real>& p, const std::type_identity_t<Real>& gap) noexcept {
-    if constexpr (PartStiffens<Part>) {
-      return Part::effective(p.part, stiffness(p, gap));
-    } else {
-      return stiffness(p, gap);
-    }
+    return Part::effective(p.part, stiffness(p, gap));
   }
 };
 

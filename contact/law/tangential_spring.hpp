@@ -140,7 +140,7 @@ struct TangentialSpringOf {
     return Real(0.5) * (compliance * force.squaredNorm());
   }
 
-  /// See ScalesHistory.
+  /// See LawDefaults.
   void scale_history(double factor) noexcept {
     force *= factor;
     compliance /= factor;

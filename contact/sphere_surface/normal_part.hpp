@@ -13,7 +13,7 @@ namespace plekton::contact {
 class NormalPart {
  public:
   /// @param parameters  without the attraction
-  /// @param attraction  N, of bodies that touch, see HasAttraction
+  /// @param attraction  N, of bodies that touch, see LawDefaults
   NormalPart(const AnyLaw::Parameters& parameters, double attraction) noexcept
       : parameters_(parameters), attraction_(attraction) {}
 

@@ -13,7 +13,7 @@ class NormalSpring {
  public:
   /// @param parameters  of the pair; must outlive this
   /// @param range       m, sum of both radii
-  /// @param attraction  N, see HasAttraction; must outlive this
+  /// @param attraction  N, see LawDefaults; must outlive this
   template <class Law>
   static NormalSpring of(const typename Law::Parameters& parameters, double range,
                          const double* attraction = nullptr) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/bonds.hpp"
+#include "contact/law/any_law.hpp"
 #include "contact/surface_surface/pressed_points.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/tracking/contact_memory.hpp"

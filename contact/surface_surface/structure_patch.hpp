@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/base/relative_motion.hpp"
-#include "contact/law/bonds.hpp"
+#include "contact/law/any_law.hpp"
 #include "contact/surface_surface/mean_overlap.hpp"
 #include "contact/surface_surface/patch_side.hpp"
 #include "contact/tracking/contact_memory.hpp"

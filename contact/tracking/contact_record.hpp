@@ -40,7 +40,7 @@ struct ContactRecord {
   bool is_bonded =
       false;  ///< the bodies stick to each other (HasInteractionRange); between structures
               ///< a bond has a row of its own, without the elastic normal force
-  bool is_slipping = false;  ///< the tangential force is at its limit (TellsTangentialLimit)
+  bool is_slipping = false;  ///< the tangential force is at its limit (tangential_limit())
 
   Vec3 force() const noexcept { return normal_force + tangential_force; }
 };

@@ -15,12 +15,8 @@ constexpr double kSlipTolerance = 1e-9;
 template <ContactLaw Law>
 bool is_at_limit(const typename Law::Parameters& parameters, const typename Law::History& history,
                  double elastic_force, const Vec3& tangential_force) {
-  if constexpr (TellsTangentialLimit<Law>) {
-    const double limit = Law::tangential_limit(parameters, elastic_force, history);
-    return tangential_force.norm() >= (1.0 - kSlipTolerance) * limit;
-  } else {
-    return false;
-  }
+  const double limit = Law::tangential_limit(parameters, elastic_force, history);
+  return tangential_force.norm() >= (1.0 - kSlipTolerance) * limit;
 }
 
 /// What the law knows of a contact whose forces are filled in already. A contact without friction

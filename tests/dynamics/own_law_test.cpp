@@ -60,7 +60,7 @@ TEST(OwnLaw, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 /// Pushes, and keeps how it has pushed in members of different sizes, with bytes between them.
-struct Flagged {
+struct Flagged : contact::LawDefaults {
   static constexpr std::string_view name = "flagged";
   struct Parameters {
     double stiffness;  // N/m

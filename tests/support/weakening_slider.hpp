@@ -14,7 +14,7 @@ namespace plekton::test {
 /// Normal force k o + h o^2 of the overlap o. Tangential force k_s * elastic slip, limited to the
 /// normal force times tan(phi) L / (L + s), where s is the way slid so far: surfaces that polish
 /// each other. The history are four numbers, unlike that of LinearFrictional.
-struct WeakeningSlider {
+struct WeakeningSlider : contact::LawDefaults {
   static constexpr std::string_view name = "weakening_slider";
 
   template <class Real>

@@ -23,7 +23,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 template <class Law>
 std::string problems_of(const PropertiesOf<Law>& properties) {
   std::ostringstream out;
-  list_problems<Law>(properties, out);
+  Law::list_problems(properties, out);
   return out.str();
 }
 
