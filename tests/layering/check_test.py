@@ -93,12 +93,12 @@ class SeededTree(unittest.TestCase):
     def test_packages_outside_their_file_are_flagged(self):
         for path, header, reason in (
             ("geometry/primitives/box.cpp", "fcl/fcl.h", "only geometry/neighbor/broad_phase.cpp"),
-            ("geometry/primitives/box.cpp", "ccd/ccd.h", "only geometry/closest/deep.cpp"),
+            ("geometry/primitives/box.cpp", "ccd/ccd.h", "only tests may"),
             ("geometry/neighbor/broad_phase.hpp", "fcl/fcl.h", "only geometry/neighbor/broad_phase.cpp"),
             ("geometry/primitives/box.cpp", "CGAL/Interval_nt.h", "only geometry/base/predicates.cpp"),
             ("geometry/mesh/repair/repair.hpp", "CGAL/Surface_mesh.h", "out of sight"),
             ("contact/sphere_surface/patch.cpp", "CGAL/Gmpq.h", "only geometry/base/predicates.cpp"),
-            ("apps/main.cpp", "ccd/vec3.h", "only geometry/closest/deep.cpp"),
+            ("apps/main.cpp", "ccd/vec3.h", "only tests may"),
         ):
             with self.subTest(path=path, header=header):
                 self.assert_flagged(path, TAG + f"#include <{header}>\n", reason)
@@ -106,7 +106,7 @@ class SeededTree(unittest.TestCase):
 
     def test_packages_in_their_own_file_are_clean(self):
         self.assert_clean("geometry/neighbor/broad_phase.cpp", TAG + "#include <fcl/fcl.h>\n")
-        self.assert_clean("geometry/closest/deep.cpp", TAG + "#include <ccd/ccd.h>\n")
+        self.assert_clean("tests/geometry/closest/together/ccd_queries_test.cpp", TAG + "#include <ccd/ccd.h>\n")
         self.assert_clean("geometry/base/predicates.cpp", TAG + "#include <CGAL/Interval_nt.h>\n")
         self.assert_clean("geometry/mesh/repair/repair.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n")
 
@@ -215,6 +215,21 @@ class SeededTree(unittest.TestCase):
         self.write("dynamics/model/scene.hpp", TAG + '#include "geometry/primitives/box.hpp"\n/// As geometry/primitives/box.hpp and repair.hpp.\n')
         self.assert_clean("contact/sphere_surface/patch.hpp", TAG + "/// Not installed: see tests/support/lattice.hpp.\n")
         self.assert_flagged("geometry/primitives/box.hpp", TAG + "\n/// See patch.hpp.\n", "geometry/primitives/box.hpp:3")
+
+    def test_installed_headers_that_include_internal_ones_are_flagged(self):
+        self.write("cmake/install.cmake", f"# {SPDX}\nplekton_public_headers(public_headers\n  dynamics/model/scene.hpp\n  dynamics/ondem/vtk.hpp)\n")
+        self.assert_flagged("dynamics/ondem/vtk.hpp", TAG, "its folder is internal")
+        (self.root / "dynamics/ondem/vtk.hpp").unlink()
+        self.write("contact/counting/wrap.hpp", TAG)
+        self.assert_clean("contact/sphere_surface/patch.hpp", TAG + '#include "contact/counting/wrap.hpp"\n')
+        self.write("dynamics/model/scene.hpp", TAG + '#include "contact/base/motion.hpp"\n')
+        self.assert_flagged("contact/base/motion.hpp", TAG + '#include "contact/counting/wrap.hpp"\n', "contact/base/motion.hpp:2: is installed")
+
+    def test_tests_without_a_source_at_their_path_are_flagged(self):
+        test = TAG + "namespace plekton::geometry::{}_test {{\n}}\n"
+        self.assert_clean("tests/geometry/primitives/box_test.cpp", test.format("box"))
+        self.assert_clean("tests/geometry/primitives/together/boxes_in_boxes_test.cpp", test.format("boxes_in_boxes"))
+        self.assert_flagged("tests/geometry/primitives/crate_test.cpp", test.format("crate"), "there is no geometry/primitives/crate.hpp")
 
     def test_functions_that_differ_between_processors_are_flagged(self):
         for code, reason in (

@@ -15,8 +15,8 @@ LIBRARIES = ("geometry", "contact", "dynamics", "apps")
 APP_FOLDERS = ("grains", "scenario", "scene", "run", "viewer", "programs", "takeover", "study", "pictures", "validation", "command_line", "python")
 """The folders of apps, in the order of their arrow; main.cpp and the examples may include any."""
 
-ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
-"""Package folder of the headers: the only file that may include them."""
+ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": ""}
+"""Package folder of the headers: the only file that may include them; none, of what tests alone compare with."""
 
 CGAL_HOMES = ("geometry/base/predicates.cpp", "geometry/neighbor/space_order.cpp")
 """The only files outside geometry/mesh that may include CGAL."""
@@ -130,7 +130,7 @@ def packages_stay_home(source, root):
         where = f"{source.path}:{include.line}: includes <{include.header}>"
         package = include.header.split("/")[0]
         if package in ONLY_HOME and source.path != ONLY_HOME[package]:
-            yield f"{where}; only {ONLY_HOME[package]} may"
+            yield f"{where}; only {ONLY_HOME[package] or 'tests'} may"
         if package == "CGAL":
             yield from _cgal_violations(source, include.header, where)
         elif include.header == CGAL_HEADER and not (source.path.endswith(".cpp") and source.directory == CGAL_HEADER.rpartition("/")[0]):
@@ -217,13 +217,18 @@ def one_home_for_each_type(source, root):
 INSTALL_LIST = "cmake/install.cmake"
 
 
+def _named_headers(root):
+    """What the install rules name."""
+    rules = Path(root) / INSTALL_LIST
+    named = re.search(r"plekton_public_headers\(public_headers\s([^)]*)\)", rules.read_text(encoding="utf-8")) if rules.is_file() else None
+    return set(named[1].split()) if named else set()
+
+
 @lru_cache(maxsize=None)
 def _public_headers(root):
     """What is installed: the headers that the install rules name, and all that these include (cmake/public_headers.cmake)."""
-    rules = Path(root) / INSTALL_LIST
-    named = re.search(r"plekton_public_headers\(public_headers\s([^)]*)\)", rules.read_text(encoding="utf-8")) if rules.is_file() else None
     reached = _reached_from(root)
-    found = set(named[1].split()) if named else set()
+    found = _named_headers(root)
     return found.union(*(reached.get(header, ()) for header in found))
 
 
@@ -237,6 +242,42 @@ def public_headers_name_public_headers(source, root):
         for header in re.findall(r"[\w/]+\.hpp", comment):
             if not any(path == header or path.endswith("/" + header) for path in public):
                 yield f"{source.path}:{number}: names {header}, which is not installed as this is; say what stands there"
+
+
+INTERNAL_FOLDERS = ("contact/counting", "contact/sphere_plane", "contact/surface_surface", "dynamics/hdf5", "dynamics/ondem")
+"""Folders of which no header is installed."""
+
+
+def _is_internal(path):
+    return any(path.startswith(name + "/") for name in INTERNAL_FOLDERS)
+
+
+def internal_headers_are_not_installed(source, root):
+    """What is installed includes nothing of what is not for users: it would be installed too, and read by their compiler."""
+    if source.path not in _public_headers(str(root)):
+        return
+    if _is_internal(source.path) and source.path in _named_headers(root):
+        yield f"{source.path}: is installed, and its folder is internal; take it off the list in {INSTALL_LIST}"
+    for include in source.includes:
+        if include.quoted and _is_internal(include.header):
+            yield (
+                f'{source.path}:{include.line}: is installed, and so "{include.header}" would be, which is internal; '
+                "include it in a source, or name it ahead"
+            )
+
+
+TOGETHER = "together"
+"""Name of the folders of tests of more than one source."""
+
+
+def tests_mirror_sources(source, root):
+    """A test of the libraries is of the source at the same path, or says by its folder that it is of several together."""
+    parts = source.path.split("/")
+    if parts[0] != "tests" or parts[1] not in LIBRARIES or TOGETHER in parts or not source.path.endswith("_test.cpp"):
+        return
+    tested = source.path.removeprefix("tests/").removesuffix("_test.cpp")
+    if not any((Path(root) / (tested + suffix)).is_file() for suffix in (".hpp", ".cpp")):
+        yield f"{source.path}: there is no {tested}.hpp or .cpp; a test of several sources lies in {source.directory}/{TOGETHER}"
 
 
 def tests_keep_to_themselves(source, root):
@@ -467,5 +508,7 @@ RULES = (
     eigen_does_not_vectorise,
     one_home_for_each_type,
     public_headers_name_public_headers,
+    internal_headers_are_not_installed,
+    tests_mirror_sources,
     tests_keep_to_themselves,
 )
