@@ -137,24 +137,23 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
   return found;
 }
 
-bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
+bool takes_over(const PairTerm& term, const PairTerm& other, Sides sides,
                 const TermProximity& of_other, TermProximity& found) {
   const geometry::ClosestPoints& points = of_other.cores.points;
   if (points.relation != geometry::Relation::apart) return false;
   const PointOnCore on_a{points.corners_a, points.weights_a};
   const PointOnCore on_b{points.corners_b, points.weights_b};
   geometry::ClosestPoints& own = found.cores.points;
-  if (!find_on(term.a, is_turned ? other.b : other.a, is_turned ? on_b : on_a, own.corners_a,
+  if (!find_on(term.a, sides.first(other.a, other.b), sides.first(on_a, on_b), own.corners_a,
                own.weights_a) ||
-      !find_on(term.b, is_turned ? other.a : other.b, is_turned ? on_a : on_b, own.corners_b,
+      !find_on(term.b, sides.second(other.a, other.b), sides.second(on_a, on_b), own.corners_b,
                own.weights_b)) {
     return false;
   }
-  const double sign = is_turned ? -1.0 : 1.0;
-  own.separation = sign * points.separation;
+  own.separation = sides.sign() * points.separation;
   own.distance = points.distance;
   own.relation = points.relation;
-  found.cores.normal = sign * of_other.cores.normal;
+  found.cores.normal = sides.sign() * of_other.cores.normal;
   found.cores.signed_distance = of_other.cores.signed_distance;
   found.may_be_flat = of_other.may_be_flat;
   return true;

@@ -4,6 +4,7 @@
 #include "contact/base/motion.hpp"
 #include "contact/surface_surface/normal_spring.hpp"
 #include "contact/surface_surface/point_share.hpp"
+#include "contact/surface_surface/sides.hpp"
 #include "contact/surface_surface/simplex.hpp"
 #include "geometry/closest/core_pair.hpp"
 #include "geometry/critical/product_features.hpp"
@@ -35,7 +36,7 @@ struct PairTerm {
 /// A pair of cells that has the features of a term.
 struct Holder {
   std::uint32_t pair;
-  bool is_turned;  ///< feature a belongs to its second cell
+  Sides sides;  ///< how the features of the term go with its cells
 };
 
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair);
@@ -55,9 +56,9 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
 
 /// Nearest points of a term whose features are faces of those of another, where these points lie in
 /// the smaller features: they are the same.
-/// @param is_turned  feature a of the term belongs to b of the other
+/// @param sides  how the features of the term go with those of the other
 /// @returns whether they do; if so, found is set
-bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
+bool takes_over(const PairTerm& term, const PairTerm& other, Sides sides,
                 const TermProximity& of_other, TermProximity& found);
 
 /// What a spring does in a term in range: the point share of its weight times what the spring does

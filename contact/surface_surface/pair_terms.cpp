@@ -58,7 +58,8 @@ std::array<geometry::FeatureNodes, 2> PairTerms::witness_features(
   const geometry::ClosestPoints& points = proximity_[pair].cores.points;
   const auto a = some_of(term.a, points.corners_a);
   const auto b = some_of(term.b, points.corners_b);
-  return holders(term).front().is_turned ? std::array{b, a} : std::array{a, b};
+  const Sides sides = holders(term).front().sides;
+  return {sides.first(a, b), sides.second(a, b)};
 }
 
 void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
@@ -78,7 +79,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   has_ring_tilts_ = false;
   clearances_.clear();
   joints_.clear(pairs.size());
-  for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
+  for (const std::uint32_t pair : features.holders) holders_.push_back({pair, {}});
   const std::size_t count = surface_->structure_count();
   for (const geometry::FeaturePair& pair : features.pairs) {
     PairTerm term = pair_term(*surface_, pair);
@@ -88,7 +89,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
     for (std::uint32_t h = 0; h < term.holder_count; ++h) {
       Holder& holder = holders_[term.first_holder + h];
       const auto nodes = surface_->nodes_of(pairs[holder.pair].a);
-      holder.is_turned = std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end();
+      holder.sides = Sides(std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end());
       if (term.is_of_cells) term_of_pair_[holder.pair] = static_cast<std::uint32_t>(terms_.size());
     }
     have_bars_ = have_bars_ || (term.is_of_cells && (term.a.count == 2 || term.b.count == 2));
@@ -217,7 +218,7 @@ bool PairTerms::evaluate_term(std::uint32_t i, std::span<const NormalSpring> spr
   TermProximity own;
   for (const Holder& holder : holders(term)) {
     const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
-    if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
+    if (!takes_over(term, cells, holder.sides, proximity_[holder.pair], own)) continue;
     act(i, own, spring, x);
     return true;
   }

@@ -3,6 +3,7 @@
 
 #include "contact/law/any_law.hpp"
 #include "contact/surface_surface/pair_term.hpp"
+#include "contact/surface_surface/sides.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/interpolation.hpp"
@@ -80,7 +81,7 @@ struct SpreadContact {
 
   std::uint32_t pair = 0;    ///< of cells
   std::uint32_t patch = 0;   ///< of which it is a part
-  bool is_turned = false;    ///< side a is on the patch's second side
+  Sides sides;               ///< how a and b go with those of the patch
   bool is_of_bar = false;    ///< one of its cells at least is a cylinder
   bool is_wrapped = false;   ///< in a patch that wraps around something
   bool is_followed = false;  ///< has left what it was to others
@@ -219,7 +220,7 @@ struct SpreadContact {
                 const geometry::Surface& surface) {
     const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
     row("patch", patch);
-    row("is_turned", is_turned);
+    sides.exchange(row, "are_crossed");
     row("is_of_bar", is_of_bar);
     row("is_wrapped", is_wrapped);
     a.exchange(row, "a", surface);

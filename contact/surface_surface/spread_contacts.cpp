@@ -43,7 +43,7 @@ bool SpreadContacts::locate(const StructurePatches& patches, std::uint32_t place
   spread = {};
   spread.pair = terms.holders(term).front().pair;
   spread.patch = patches.places()[place].patch;
-  spread.is_turned = patches.places()[place].is_turned;
+  spread.sides = patches.places()[place].sides;
   spread.structure_pair = term.spring;
   if (const PairForces* const extent = terms.extent(acting))
     return spread.locate(term, *extent, patches.structure_pairs()[term.spring], x);
@@ -138,7 +138,7 @@ bool SpreadContacts::locate_bar(const StructurePatches& patches, const PairTerm&
   if (!(push > 0.0) || !(patch.bar_part > 0.0)) return false;
   spread.is_wrapped = of.wrapped > 0.0;
   const double own = of.spread();
-  Vec3 towards = (spread.is_turned ? -1.0 : 1.0) * (1.0 - own) * patch.elastic_force;
+  Vec3 towards = spread.sides.sign() * (1.0 - own) * patch.elastic_force;
   if (patch.pushes()) towards /= patch.normal_force;
   const StructurePair& bodies = patches.structure_pairs()[term.spring];
   const double overlap = mean_overlap(bodies.parameters, of.energy, of.bars);
@@ -295,7 +295,7 @@ std::vector<SpreadContacts::Sum> SpreadContacts::sums(const StructurePatches& pa
   for (const SpreadContact& spread : contacts_) {
     const StructurePair& structure_pair = patches.structure_pairs()[spread.structure_pair];
     const StructurePatch& patch = patches.patches()[spread.patch];
-    const double sign = spread.is_turned ? -1.0 : 1.0;
+    const double sign = spread.sides.sign();
     const Vec3 force = sign * spread.other_force;
     const Vec3 about = patch.second.point() + patch.lever_of_second(structure_pair);
     const Vec3 point = spread.b.point + spread.lever_b(structure_pair);

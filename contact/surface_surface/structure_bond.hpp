@@ -3,6 +3,7 @@
 
 #include "contact/law/any_law.hpp"
 #include "contact/surface_surface/pressed_points.hpp"
+#include "contact/surface_surface/sides.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/interpolation.hpp"
@@ -23,7 +24,7 @@ namespace plekton::contact::structure {
 /// the points do not slide, it does not jump where the contact passes from cell to cell.
 struct StructureBond {
   geometry::CellPair cells{};  ///< that it belongs to
-  bool is_turned = false;      ///< point a is on the second of them
+  Sides sides;                 ///< how its points go with them
   std::uint32_t structure_pair = 0;
   geometry::CorePoint a{};  ///< on the lower structure
   geometry::CorePoint b{};
@@ -92,7 +93,7 @@ struct StructureBond {
     row("cell_a", cells.a);
     row("cell_b", cells.b);
     row.require(has(surface, cells), "cell_a");
-    row("is_turned", is_turned);
+    sides.exchange(row, "are_crossed");
     contact::exchange(row, "a", a, surface);
     contact::exchange(row, "b", b, surface);
     row("contacts", count);

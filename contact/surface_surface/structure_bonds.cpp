@@ -156,7 +156,7 @@ void StructureBonds::list_pressed_pairs(const StructurePatches& patches) {
     if (!(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
     const double wide = wide_count(terms, acting, parameters, deepest, patch.normal());
-    pressed_.push_back({holder.pair, at, acting, holder.is_turned, near, wide, 0.0});
+    pressed_.push_back({holder.pair, at, acting, holder.sides, near, wide, 0.0});
     gluing_[at].near += near;
     gluing_[at].positive += std::max(0.0, near);
     gluing_[at].wide += wide;
@@ -192,7 +192,7 @@ double StructureBonds::glue_pair(StructurePatches& patches, const Pressed& press
   std::optional<StructureBond> bond = new_bond(bodies, at, count, x);
   if (!bond) return 0.0;
   bond->cells = pair.cells;
-  bond->is_turned = pressed.is_turned;
+  bond->sides = pressed.sides;
   bond->structure_pair = term.spring;
   bond->pair = static_cast<std::int32_t>(pressed.pair);
   bond->patch = static_cast<std::int32_t>(pressed.patch);
@@ -229,18 +229,18 @@ double StructureBonds::hand_over(StructureBond& bond, StructurePatches& patches,
       if (pair.spread >= 0)
         lost -= hand_to_spread(bond, spread[pair.spread], patches);
       else if (pair.patch >= 0 && patch.pushes())
-        lost -= hand_to_patch(bond, bond.is_turned != pair.is_turned, patch, patches);
+        lost -= hand_to_patch(bond, bond.sides.with(pair.sides), patch, patches);
     }
   }
   bond.memory.history = {};
   return lost;
 }
 
-/// @param is_turned  point a is on the patch's second side
+/// @param sides  how the bond's points go with those of the patch
 /// @returns the energy (J) that the patch gains
-double StructureBonds::hand_to_patch(const StructureBond& bond, bool is_turned,
+double StructureBonds::hand_to_patch(const StructureBond& bond, Sides sides,
                                      StructurePatch& patch, const StructurePatches& patches) const {
-  const double sign = is_turned ? -1.0 : 1.0;
+  const double sign = sides.sign();
   const double before = patches.history_energy(patch);
   AnyLaw::accumulate_history(patch.memory.history,
                              carried_history<AnyLaw>(bond.memory, sign * patch.memory.normal, 0.0),

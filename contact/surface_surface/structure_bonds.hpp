@@ -80,10 +80,10 @@ class StructureBonds {
     std::uint32_t pair;
     std::uint32_t patch;
     std::uint32_t term;
-    bool is_turned;  ///< feature a of the term is on its second cell
-    double near;     ///< contacts
-    double wide;     ///< contacts
-    double wants;    ///< contacts
+    Sides sides;   ///< how the features of the term go with its cells
+    double near;   ///< contacts
+    double wide;   ///< contacts
+    double wants;  ///< contacts
   };
 
   std::int32_t patch_of(const StructureBond& bond, const StructurePatches& patches) const;
@@ -96,7 +96,7 @@ class StructureBonds {
   double glue_pair(StructurePatches& patches, const Pressed& pressed, double count, Positions x);
   void free_patches_of_pressing(StructurePatches& patches);
   double hand_over(StructureBond& bond, StructurePatches& patches, SpreadContacts& spread) const;
-  double hand_to_patch(const StructureBond& bond, bool is_turned, StructurePatch& patch,
+  double hand_to_patch(const StructureBond& bond, Sides sides, StructurePatch& patch,
                        const StructurePatches& patches) const;
   double hand_to_spread(const StructureBond& bond, SpreadContact& spread,
                         const StructurePatches& patches) const;

@@ -219,7 +219,7 @@ void StructureContacts::exchange_pair(geometry::RowFields& row, PairOfCells& pai
   row("cell_a", pair.cells.a);
   row("cell_b", pair.cells.b);
   row("patch", pair.patch);
-  row("is_turned", pair.is_turned);
+  pair.sides.exchange(row, "are_crossed");
   row("spread", pair.spread);
   row.require(pair.patch >= -1 && pair.patch < std::ssize(patches_.patches()), "patch");
   row.require(pair.spread >= -1 && pair.spread < static_cast<std::ptrdiff_t>(spread_.size()),

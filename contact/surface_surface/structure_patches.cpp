@@ -128,9 +128,9 @@ void StructurePatches::take_parts() {
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     PairOfCells& pair = pairs_[i];
     pair.old_patch = pair.patch;
-    pair.was_turned = pair.is_turned;
+    pair.old_sides = pair.sides;
     pair.patch = parts.part_of(i);
-    if (pair.patch >= 0) pair.is_turned = parts.is_turned(i);
+    if (pair.patch >= 0) pair.sides = parts.sides_of(i);
   }
   set_patch_count(parts.count());
 }
@@ -155,12 +155,12 @@ void StructurePatches::find_places() {
     const PairTerm& term = terms_[acting];
     const Holder& holder = terms_.holders(term).front();
     const PairOfCells& pair = pairs_[holder.pair];
-    const bool is_turned = holder.is_turned != pair.is_turned;
-    places_.push_back({static_cast<std::uint32_t>(pair.patch), is_turned, {}, {}});
+    const Sides sides = holder.sides.with(pair.sides);
+    places_.push_back({static_cast<std::uint32_t>(pair.patch), sides, {}, {}});
     StructurePatch& patch = patches_[places_.back().patch];
     patch.structure_pair = term.spring;
-    for (const NodeId node : term.a) (is_turned ? patch.second : patch.first).add(node);
-    for (const NodeId node : term.b) (is_turned ? patch.first : patch.second).add(node);
+    for (const NodeId node : term.a) sides.first(patch.first, patch.second).add(node);
+    for (const NodeId node : term.b) sides.second(patch.first, patch.second).add(node);
   }
   for (StructurePatch& patch : patches_) {
     patch.first.sort();
@@ -170,8 +170,8 @@ void StructurePatches::find_places() {
     const PairTerm& term = terms_[terms_.acting()[i]];
     TermPlaces& places = places_[i];
     const StructurePatch& patch = patches_[places.patch];
-    const auto& side_a = places.is_turned ? patch.second : patch.first;
-    const auto& side_b = places.is_turned ? patch.first : patch.second;
+    const PatchSide& side_a = places.sides.first(patch.first, patch.second);
+    const PatchSide& side_b = places.sides.second(patch.first, patch.second);
     for (std::size_t k = 0; k < term.a.count; ++k) places.a[k] = side_a.place_of(term.a.ids[k]);
     for (std::size_t k = 0; k < term.b.count; ++k) places.b[k] = side_b.place_of(term.b.ids[k]);
   }
@@ -217,10 +217,10 @@ void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& place
   patch.crossings += term.is_of_cells && term.meets ? 1 : 0;
   if (term.overlap > patch.deepest_overlap) {
     patch.deepest_overlap = term.overlap;
-    patch.deepest = {places.is_turned ? term.b : term.a, places.is_turned ? term.a : term.b};
+    patch.deepest = {places.sides.first(term.a, term.b), places.sides.second(term.a, term.b)};
   }
-  auto& side_a = places.is_turned ? patch.second : patch.first;
-  auto& side_b = places.is_turned ? patch.first : patch.second;
+  PatchSide& side_a = places.sides.first(patch.first, patch.second);
+  PatchSide& side_b = places.sides.second(patch.first, patch.second);
   const auto push = [&](const PairForces& by, double part) {
     for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_force(places.a[k], part * by.on_a[k]);
     for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_force(places.b[k], part * by.on_b[k]);
@@ -247,14 +247,14 @@ void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& place
 void StructurePatches::find_successors() {
   successors_.clear();
   if (!terms_.acting_changed()) {
-    for (std::uint32_t i = 0; i < patches_.size(); ++i) successors_.push_back({i, i, false});
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) successors_.push_back({i, i, {}});
     return;
   }
   for (const PairOfCells& pair : pairs_) {
     if (pair.old_patch < 0 || pair.patch < 0) continue;
     successors_.push_back({static_cast<std::uint32_t>(pair.old_patch),
                            static_cast<std::uint32_t>(pair.patch),
-                           pair.was_turned != pair.is_turned});
+                           pair.old_sides.with(pair.sides)});
   }
   std::sort(successors_.begin(), successors_.end());
   successors_.erase(std::unique(successors_.begin(), successors_.end(),
@@ -302,7 +302,7 @@ void StructurePatches::hand_on_history(const Predecessor& old,
   for (const PatchSuccessor& successor : successors) {
     StructurePatch& patch = patches_[successor.patch];
     if (!(patch.point_count() > 0.0)) continue;
-    const double sign = successor.is_turned ? -1.0 : 1.0;
+    const double sign = successor.sides.sign();
     const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
     const Vec3 spin =
         0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
@@ -345,7 +345,7 @@ void StructurePatches::follow(const geometry::SurfaceChange& change) {
     const auto a = change.now(pair.cells.a);
     const auto b = change.now(pair.cells.b);
     if (a && b) {
-      left.push_back({{*a, *b}, pair.patch, pair.is_turned});
+      left.push_back({{*a, *b}, pair.patch, pair.sides});
       left.back().spread = pair.spread;
     } else if (pair.patch >= 0) {
       hand_to_sides(pair, terms_.witness_features(i), change, left);
@@ -381,7 +381,7 @@ void StructurePatches::hand_to_sides(const PairOfCells& pair,
       if (!has(a, witness_features[0]) || !has(b, witness_features[1])) continue;
       const bool swaps = is_of_one && b < a;  // within one structure the lower cell comes first
       left.push_back({swaps ? geometry::CellPair{b, a} : geometry::CellPair{a, b}, pair.patch,
-                      pair.is_turned != swaps});
+                      pair.sides.with(Sides(swaps))});
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "contact/law/material_pairs.hpp"
 #include "contact/law/pair_springs.hpp"
 #include "contact/surface_surface/pair_terms.hpp"
+#include "contact/surface_surface/sides.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/surface_surface/structure_probe.hpp"
 #include "contact/tracking/energy_loss.hpp"
@@ -25,9 +26,9 @@ namespace plekton::contact::structure {
 struct PairOfCells {
   geometry::CellPair cells;
   std::int32_t patch = -1;  ///< -1: does not touch
-  bool is_turned = false;   ///< its first cell is on the second side of its patch
+  Sides sides = {};         ///< how its cells go with those of its patch
   std::int32_t old_patch = -1;
-  bool was_turned = false;
+  Sides old_sides = {};
   std::int32_t bond = -1;    ///< StructureBonds; -1: none
   std::int32_t spread = -1;  ///< SpreadContacts, of the last step; -1: none
 };
@@ -36,14 +37,14 @@ struct PairOfCells {
 struct PatchSuccessor {
   std::uint32_t old_patch;
   std::uint32_t patch;
-  bool is_turned;
+  Sides sides;  ///< how those of the old one go with those of the new one
   friend constexpr auto operator<=>(const PatchSuccessor&, const PatchSuccessor&) = default;
 };
 
 /// Where the forces of a term in range go.
 struct TermPlaces {
   std::uint32_t patch;
-  bool is_turned;  ///< feature a is on the second side
+  Sides sides;  ///< how the features go with those of the patch
   std::array<std::uint32_t, 3> a;
   std::array<std::uint32_t, 3> b;
 };

@@ -8,13 +8,13 @@ namespace plekton::contact::structure {
 void TermParts::find(const TermsInRange& terms, std::size_t pair_count) {
   constexpr std::int32_t kInRange = 0;
   parts_.assign(pair_count, kNone);
-  are_turned_.resize(pair_count);
+  sides_.resize(pair_count);
   connected_.reset(pair_count);
   for (const std::uint32_t term : terms.acting) {
     const auto holders = terms.holders_of(term);
     const Holder& first = holders.front();
     for (const Holder& holder : holders) {
-      connected_.unite(first.pair, holder.pair, first.is_turned != holder.is_turned);
+      connected_.unite(first.pair, holder.pair, first.sides.with(holder.sides));
       parts_[holder.pair] = kInRange;
     }
   }
@@ -39,7 +39,7 @@ std::size_t TermParts::number_parts() {
     const auto place = connected_.find(pair);
     // The root is the lowest of its part: it comes first.
     parts_[pair] = place.root == pair ? count++ : parts_[place.root];
-    are_turned_[pair] = place.is_turned ? 1 : 0;
+    sides_[pair] = place.sides;
   }
   return static_cast<std::size_t>(count);
 }

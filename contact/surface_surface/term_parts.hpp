@@ -36,9 +36,8 @@ class TermParts {
   std::size_t pair_count() const noexcept { return parts_.size(); }
   /// kNone: the pair is not in range.
   std::int32_t part_of(std::uint32_t pair) const noexcept { return parts_[pair]; }
-  /// Whether the first cell of a pair in range is on the other side than that of the lowest of its
-  /// part.
-  bool is_turned(std::uint32_t pair) const noexcept { return are_turned_[pair] != 0; }
+  /// How the cells of a pair in range go with those of the lowest pair of its part.
+  Sides sides_of(std::uint32_t pair) const noexcept { return sides_[pair]; }
   /// Ascending, as places in the list of terms in range.
   std::span<const std::uint32_t> places(std::size_t part) const noexcept {
     return {places_.data() + firsts_[part], places_.data() + firsts_[part + 1]};
@@ -51,7 +50,7 @@ class TermParts {
 
   TouchingPatches connected_;
   std::vector<std::int32_t> parts_;    ///< by pair
-  std::vector<char> are_turned_;       ///< by pair
+  std::vector<Sides> sides_;           ///< by pair
   std::vector<std::uint32_t> places_;  ///< part by part
   std::vector<std::uint32_t> firsts_;  ///< by part, and the number of all
   std::vector<std::uint32_t> next_;    ///< by part: where its next term goes

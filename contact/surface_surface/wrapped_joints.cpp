@@ -19,7 +19,7 @@ Simplex simplex_at(const geometry::FeatureNodes& nodes, Positions x) {
 geometry::CellId cell_on(const Holder& holder, bool is_a,
                          std::span<const geometry::CellPair> pairs) {
   const geometry::CellPair& pair = pairs[holder.pair];
-  return is_a != holder.is_turned ? pair.a : pair.b;
+  return is_a ? holder.sides.first(pair.a, pair.b) : holder.sides.second(pair.a, pair.b);
 }
 
 std::uint8_t place_in(const PairTerm& term, NodeId node) {

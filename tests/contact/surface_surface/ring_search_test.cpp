@@ -23,7 +23,7 @@ struct Row {
     term.is_of_cells = pairs.size() == 1;
     term.first_holder = static_cast<std::uint32_t>(holders.size());
     term.holder_count = static_cast<std::uint32_t>(pairs.size());
-    for (const std::uint32_t pair : pairs) holders.push_back({pair, false});
+    for (const std::uint32_t pair : pairs) holders.push_back({pair, {}});
     acting.push_back(static_cast<std::uint32_t>(terms.size()));
     terms.push_back(term);
   }

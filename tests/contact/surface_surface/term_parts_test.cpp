@@ -33,9 +33,9 @@ using Places = std::vector<std::uint32_t>;
 
 TEST(TermParts, ArePairsThatShareATermNumberedByTheirLowest) {
   Terms terms;
-  for (const std::uint32_t pair : {1u, 2u, 4u, 5u, 6u}) terms.add({{pair, false}});
-  terms.add({{2, false}, {5, false}});
-  terms.add({{4, false}, {6, false}});
+  for (const std::uint32_t pair : {1u, 2u, 4u, 5u, 6u}) terms.add({{pair, {}}});
+  terms.add({{2, {}}, {5, {}}});
+  terms.add({{4, {}}, {6, {}}});
   TermParts parts;
   parts.find(terms.in_range(), 8);
   ASSERT_EQ(parts.count(), 3u);
@@ -49,7 +49,7 @@ TEST(TermParts, ArePairsThatShareATermNumberedByTheirLowest) {
 
 TEST(TermParts, GivePlacesAmongTermsInRangeAndNotAmongAll) {
   Terms terms;
-  for (const std::uint32_t pair : {0u, 1u, 2u}) terms.add({{pair, false}});
+  for (const std::uint32_t pair : {0u, 1u, 2u}) terms.add({{pair, {}}});
   terms.acting = {0, 2};
   TermParts parts;
   parts.find(terms.in_range(), 3);
@@ -60,15 +60,15 @@ TEST(TermParts, GivePlacesAmongTermsInRangeAndNotAmongAll) {
 
 TEST(TermParts, TurnPairsWhoseFirstCellIsAcrossFromThatOfTheLowest) {
   Terms terms;
-  for (const std::uint32_t pair : {0u, 1u, 2u}) terms.add({{pair, false}});
-  terms.add({{0, false}, {1, true}});
-  terms.add({{1, false}, {2, true}});
+  for (const std::uint32_t pair : {0u, 1u, 2u}) terms.add({{pair, {}}});
+  terms.add({{0, {}}, {1, Sides(true)}});
+  terms.add({{1, {}}, {2, Sides(true)}});
   TermParts parts;
   parts.find(terms.in_range(), 3);
   ASSERT_EQ(parts.count(), 1u);
-  EXPECT_FALSE(parts.is_turned(0));
-  EXPECT_TRUE(parts.is_turned(1));
-  EXPECT_FALSE(parts.is_turned(2));
+  EXPECT_FALSE(parts.sides_of(0).are_crossed());
+  EXPECT_TRUE(parts.sides_of(1).are_crossed());
+  EXPECT_FALSE(parts.sides_of(2).are_crossed());
 }
 
 TEST(TermParts, OfNothingAreNone) {
