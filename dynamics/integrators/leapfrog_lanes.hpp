@@ -6,6 +6,7 @@
 #include "geometry/base/lanes.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -122,21 +123,15 @@ struct NodeArrays {
   }
 };
 
-template <class Thing>
-PLEKTON_INLINE auto* numbers_of(Thing* things) noexcept {
-  using Number = std::conditional_t<std::is_const_v<Thing>, const double, double>;
-  return reinterpret_cast<Number*>(things);
-}
-
 template <int W>
 PLEKTON_INLINE Vector<Pack<W>> load_vectors(const Vec3* from) noexcept {
-  const auto [x, y, z] = geometry::load_things<W, 3>(numbers_of(from));
+  const auto [x, y, z] = geometry::load_things<W, 3>(from);
   return {x, y, z};
 }
 
 template <int W>
 PLEKTON_INLINE void store_vectors(const Vector<Pack<W>>& v, Vec3* to) noexcept {
-  geometry::store_things<W, 3>({v.x, v.y, v.z}, numbers_of(to));
+  geometry::store_things<W, 3>({v.x, v.y, v.z}, to);
 }
 
 /// 1 for each component of a motion of each node that is held, else 0.
@@ -178,7 +173,7 @@ template <int W>
 PLEKTON_INLINE bool turn_side_by_side(const Vector<Pack<W>>& spin, double dt,
                                       Quat* orientations) noexcept {
   using Real = Pack<W>;
-  const auto [x, y, z, w] = geometry::load_things<W, 4>(numbers_of(orientations));
+  const auto [x, y, z, w] = geometry::load_things<W, 4>(orientations);
   const QuatOf<Real> after = turned_numbers<Real>({x, y, z, w}, spin, dt);
   const Real rests = geometry::flag(spin.squaredNorm() == Real(0.0));
   const Vector<Real> half_turn = Real(0.5 * dt) * spin;
@@ -187,7 +182,7 @@ PLEKTON_INLINE bool turn_side_by_side(const Vector<Pack<W>>& spin, double dt,
   if (bits_of(is_small) != geometry::kAllBits<W>) return false;
   geometry::store_things<W, 4>({select(rests > 0.0, x, after.x), select(rests > 0.0, y, after.y),
                                 select(rests > 0.0, z, after.z), select(rests > 0.0, w, after.w)},
-                               numbers_of(orientations));
+                               orientations);
   return true;
 }
 
@@ -195,10 +190,12 @@ PLEKTON_INLINE bool turn_side_by_side(const Vector<Pack<W>>& spin, double dt,
 template <int W>
 PLEKTON_INLINE void drift(const Vec3* velocities, double dt, Vec3* positions) noexcept {
   using Real = Pack<W>;
-  for (int k = 0; k < 3; ++k) {
-    const Real velocity = Real::load(numbers_of(velocities) + k * W);
-    double* const position = numbers_of(positions) + k * W;
-    (Real::load(position) + Real(dt) * velocity).store(position);
+  const auto* const from = reinterpret_cast<const std::byte*>(velocities);
+  auto* const to = reinterpret_cast<std::byte*>(positions);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Real velocity = Real::load_bytes(from + k * sizeof(Real));
+    std::byte* const position = to + k * sizeof(Real);
+    (Real::load_bytes(position) + Real(dt) * velocity).store_bytes(position);
   }
 }
 

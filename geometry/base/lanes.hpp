@@ -4,6 +4,7 @@
 #include "geometry/base/pack.hpp"
 
 #include <array>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -188,13 +189,22 @@ PLEKTON_INLINE Pack<W> things_in_pack(const Packs<W, N>& numbers, const Pack<W>&
   }
 }
 
+/// Of things that are numbers one after the other.
+template <int N, class Thing>
+PLEKTON_INLINE auto* bytes_of(Thing* things) noexcept {
+  static_assert(sizeof(Thing) == N * sizeof(double));
+  using Byte = std::conditional_t<std::is_const_v<Thing>, const std::byte, std::byte>;
+  return reinterpret_cast<Byte*>(things);
+}
+
 }  // namespace detail
 
 /// Loads W things of N > 1 numbers each, which lie one after the other.
-template <int W, int N>
-PLEKTON_INLINE Packs<W, N> load_things(const double* from) noexcept {
+template <int W, int N, class Thing>
+PLEKTON_INLINE Packs<W, N> load_things(const Thing* from) noexcept {
+  const std::byte* const bytes = detail::bytes_of<N>(from);
   const auto packs = detail::each<N>([&](auto k) __attribute__((always_inline)) {
-    return Pack<W>::load(from + k * W);
+    return Pack<W>::load_bytes(bytes + k * sizeof(Pack<W>));
   });
   if constexpr (W == 1)
     return packs;
@@ -205,13 +215,15 @@ PLEKTON_INLINE Packs<W, N> load_things(const double* from) noexcept {
 }
 
 /// Stores W things of N > 1 numbers each, one after the other.
-template <int W, int N>
-PLEKTON_INLINE void store_things(const Packs<W, N>& numbers, double* to) noexcept {
+template <int W, int N, class Thing>
+PLEKTON_INLINE void store_things(const Packs<W, N>& numbers, Thing* to) noexcept {
+  std::byte* const bytes = detail::bytes_of<N>(to);
   detail::each<N>([&](auto k) __attribute__((always_inline)) {
+    std::byte* const of_pack = bytes + k * sizeof(Pack<W>);
     if constexpr (W == 1)
-      numbers[k].store(to + k);
+      numbers[k].store_bytes(of_pack);
     else
-      detail::things_in_pack<k, 1, W, N>(numbers, numbers[0]).store(to + k * W);
+      detail::things_in_pack<k, 1, W, N>(numbers, numbers[0]).store_bytes(of_pack);
     return 0;
   });
 }

@@ -4,6 +4,7 @@
 #include "geometry/base/types.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -49,6 +50,15 @@ struct Pack {
     return pack;
   }
   PLEKTON_INLINE void store(double* to) const noexcept { std::memcpy(to, &lanes, sizeof(lanes)); }
+  /// From the bytes of W numbers in a row, as part of which things they are.
+  PLEKTON_INLINE static Pack load_bytes(const std::byte* from) noexcept {
+    Pack pack;
+    std::memcpy(&pack.lanes, from, sizeof(pack.lanes));
+    return pack;
+  }
+  PLEKTON_INLINE void store_bytes(std::byte* to) const noexcept {
+    std::memcpy(to, &lanes, sizeof(lanes));
+  }
 
   PLEKTON_INLINE friend Pack operator+(const Pack& x, const Pack& y) noexcept {
     return Pack(x.lanes + y.lanes);

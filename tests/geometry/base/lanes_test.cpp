@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -30,16 +31,19 @@ TYPED_TEST_SUITE(Lanes, Widths);
 
 template <int W, int N>
 void expect_things_in_a_row_are_loaded_and_stored() {
-  const std::vector<double> numbers = counted(std::size_t{W * N});
-  std::vector<double> copies(numbers.size(), -1.0);
+  using Thing = std::array<double, std::size_t{N}>;
+  std::vector<Thing> things(std::size_t{W}), copies(std::size_t{W});
+  for (int l = 0; l < W; ++l)
+    for (int n = 0; n < N; ++n)
+      things[static_cast<std::size_t>(l)][static_cast<std::size_t>(n)] = l * N + n;
 
-  const auto packs = load_things<W, N>(numbers.data());
+  const auto packs = load_things<W, N>(things.data());
   store_things<W, N>(packs, copies.data());
 
   for (int n = 0; n < N; ++n) {
     for (int l = 0; l < W; ++l) EXPECT_EQ(lane(packs[static_cast<std::size_t>(n)], l), l * N + n);
   }
-  EXPECT_EQ(copies, numbers);
+  EXPECT_EQ(copies, things);
 }
 
 TYPED_TEST(Lanes, HoldThingsThatLieOneAfterTheOther) {
