@@ -22,11 +22,12 @@ std::string problem_with_name(const std::string& name) {
   });
   if (!is_one_line)
     return "has a line break or another control character; expected a name on one line";
-  // A spreadsheet would carry out what stands there.
-  if (name.find_first_of("=+-@") != 0) return "";
+  // A spreadsheet would carry out what stands there, also behind blanks.
+  const std::size_t first = name.find_first_not_of(' ');
+  if (first == std::string::npos || name.find_first_of("=+-@", first) != first) return "";
   return fmt::format(
-      "got \"{}\"; expected a name that does not begin with = + - or @, which a spreadsheet takes "
-      "for a formula",
+      "got \"{}\"; expected a name that does not begin with = + - or @, also behind blanks, which "
+      "a spreadsheet takes for a formula",
       name);
 }
 

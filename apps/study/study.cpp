@@ -21,6 +21,24 @@
 namespace plekton::apps {
 namespace {
 
+/// Whether a text may be the path of a key in a scenario: the name of a table, in lower case, and
+/// more behind a dot.
+bool is_path(std::string_view text) {
+  const std::size_t dot = text.find('.');
+  if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return false;
+  const std::string_view table = text.substr(0, dot);
+  return std::all_of(table.begin(), table.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; }) &&
+         std::none_of(text.begin(), text.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; });
+}
+
+/// Of a file that is no table of a study nothing is to be told.
+bool has_paths(const std::vector<CsvRow>& rows) {
+  return !rows.empty() && rows[0].problem.empty() &&
+         std::all_of(rows[0].cells.begin(), rows[0].cells.end(), is_path);
+}
+
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRuns = 100'000;
@@ -283,6 +301,12 @@ class StudyReader {
       rows = parse_csv(geometry::read_regular_file(path, "a table (.csv)"));
     } catch (const geometry::UnreadableFile& error) {
       root_.complain("table", error.what());
+      return;
+    }
+    if (!has_paths(rows)) {
+      root_.complain("table", fmt::format("the first row of {} is not one of paths, as in "
+                                          "simulation.duration,grains.sand.count",
+                                          path.string()));
       return;
     }
     // What is wrong with a quote may have changed how many rows and cells there are.

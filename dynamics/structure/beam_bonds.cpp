@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace plekton::dynamics {
@@ -98,12 +99,17 @@ void BeamBonds::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const
   });
 }
 
-BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const noexcept {
+void BeamBonds::throw_no_bond(std::size_t bond) const {
+  throw std::out_of_range("BeamBonds: there is no bond " + std::to_string(bond) + "; there are " +
+                          std::to_string(size()));
+}
+
+BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const {
   return bond_forces(spring(bond), ends(bond, state));
 }
 
 std::array<Vec3, 2> BeamBonds::action_on(std::size_t bond, bool at_b,
-                                         const NodeState& state) const noexcept {
+                                         const NodeState& state) const {
   const auto vector = [](const PackVec3<double>& v) { return Vec3(v.x, v.y, v.z); };
   const BeamReactionOf<double> all = any_beam_reaction(spring(bond), ends(bond, state));
   if (at_b) return {vector(all.force), vector(all.torque_b)};
@@ -111,8 +117,8 @@ std::array<Vec3, 2> BeamBonds::action_on(std::size_t bond, bool at_b,
 }
 
 double BeamBonds::lost_by_break(std::size_t bond, const BeamSpringOf<double>& spring,
-                                const NodeState& state, double drift) const noexcept {
-  if (is_broken_[bond]) return 0.0;
+                                const NodeState& state, double drift) const {
+  if (is_broken(bond)) return 0.0;
   const auto [a, b] = nodes(bond);
   const auto turn = [&](NodeId node) { return drift * state.angular_velocity[index_of(node)]; };
   const auto turned_back = [&](NodeId node) {
@@ -127,8 +133,8 @@ double BeamBonds::lost_by_break(std::size_t bond, const BeamSpringOf<double>& sp
   return row_of(bond).energy.number(lane_of(bond)) - 0.5 * work;
 }
 
-double BeamBonds::break_bond(std::size_t bond) noexcept {
-  if (is_broken_[bond]) return 0.0;
+double BeamBonds::break_bond(std::size_t bond) {
+  if (is_broken(bond)) return 0.0;
   is_broken_[bond] = true;
   BeamSpringOf<double> without = spring(bond);
   without.axial = without.bending = without.twist = 0.0;

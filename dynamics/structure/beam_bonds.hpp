@@ -51,6 +51,8 @@ namespace plekton::dynamics {
 /// any rigid motion, so turning makes no energy. The torque of a twist grows up to 103 degrees in
 /// one bond and is gone at half a turn, an unstable balance. That of bending grows up to half a
 /// turn, where it changes its side: there it has none, m = 0. Use several bonds there.
+///
+/// Whatever takes a bond by its place throws std::out_of_range where there is none.
 class BeamBonds {
  public:
   /// @throws std::invalid_argument listing every problem of every bond
@@ -58,7 +60,7 @@ class BeamBonds {
 
   std::size_t size() const noexcept { return slots_.size(); }
 
-  std::array<NodeId, 2> nodes(std::size_t bond) const noexcept {
+  std::array<NodeId, 2> nodes(std::size_t bond) const {
     const BeamRow& row = row_of(bond);
     return {row.nodes[0][lane_of(bond)], row.nodes[1][lane_of(bond)]};
   }
@@ -76,27 +78,25 @@ class BeamBonds {
   double elastic_energy() const noexcept;
 
   /// Axial force (N) of a bond at the last advance, tension positive.
-  double axial_force(std::size_t bond) const noexcept {
-    return row_of(bond).tension.number(lane_of(bond));
-  }
+  double axial_force(std::size_t bond) const { return row_of(bond).tension.number(lane_of(bond)); }
 
   /// What a bond carries where its nodes are as given.
-  BondForces forces_of(std::size_t bond, const NodeState& state) const noexcept;
+  BondForces forces_of(std::size_t bond, const NodeState& state) const;
 
   /// Force (N) and torque (N m) of a bond on one of its nodes where they are as given.
   /// @param at_b  on the second node, or else the first
-  std::array<Vec3, 2> action_on(std::size_t bond, bool at_b, const NodeState& state) const noexcept;
+  std::array<Vec3, 2> action_on(std::size_t bond, bool at_b, const NodeState& state) const;
 
   /// What the force knows of a bond, and where its ends are.
-  BeamSpringOf<double> spring(std::size_t bond) const noexcept {
+  BeamSpringOf<double> spring(std::size_t bond) const {
     return row_of(bond).spring.at<BeamSpringOf<double>>(lane_of(bond));
   }
-  BeamEndsOf<double> ends(std::size_t bond, const NodeState& state) const noexcept {
+  BeamEndsOf<double> ends(std::size_t bond, const NodeState& state) const {
     return ends_of(row_of(bond), lane_of(bond), state);
   }
   /// Changes a bond from the next advance on. Several bonds may be changed at the same time.
-  void set_spring(std::size_t bond, const BeamSpringOf<double>& spring) noexcept {
-    rows_[slots_[bond] / BeamRow::kLanes].spring.set(lane_of(bond), spring);
+  void set_spring(std::size_t bond, const BeamSpringOf<double>& spring) {
+    rows_[slot(bond) / BeamRow::kLanes].spring.set(lane_of(bond), spring);
   }
   /// What is lost (J) if a bond breaks that nodes came to be at with their velocities in a drift:
   /// what it stored at the last advance, less the work of its forces of then on half of the way.
@@ -104,23 +104,26 @@ class BeamBonds {
   /// @param spring  as it was at the last advance
   /// @param drift   s
   double lost_by_break(std::size_t bond, const BeamSpringOf<double>& spring, const NodeState& state,
-                       double drift) const noexcept;
+                       double drift) const;
 
   /// Takes all stiffness from a bond, for good: from the next advance on it does nothing, and
   /// stores nothing. Again: no effect.
   /// @returns J, what it stored at the last advance
-  double break_bond(std::size_t bond) noexcept;
-  bool is_broken(std::size_t bond) const noexcept { return is_broken_[bond]; }
+  double break_bond(std::size_t bond);
+  bool is_broken(std::size_t bond) const { return slot(bond), is_broken_[bond]; }
 
   /// Where bonds are at rest, what is broken, and what the last advance found.
   /// @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 
  private:
-  const BeamRow& row_of(std::size_t bond) const noexcept {
-    return rows_[slots_[bond] / BeamRow::kLanes];
+  std::size_t slot(std::size_t bond) const {
+    if (bond >= slots_.size()) throw_no_bond(bond);
+    return slots_[bond];
   }
-  std::size_t lane_of(std::size_t bond) const noexcept { return slots_[bond] % BeamRow::kLanes; }
+  [[noreturn]] void throw_no_bond(std::size_t bond) const;
+  const BeamRow& row_of(std::size_t bond) const { return rows_[slot(bond) / BeamRow::kLanes]; }
+  std::size_t lane_of(std::size_t bond) const { return slot(bond) % BeamRow::kLanes; }
   void fill_block(const BeamBlocks::Block& block, std::span<const BeamBond> bonds);
   void gather_nodes(std::size_t node_count);
 

@@ -22,7 +22,7 @@ PolygonSoup scaled(PolygonSoup soup, double scale, const std::string& source) {
 }  // namespace
 
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
-  tell(options.repair, "reading");
+  options.repair.tell("reading");
   return import_soup(read_mesh_file(path), path.filename().string(), options);
 }
 

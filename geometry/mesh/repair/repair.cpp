@@ -244,9 +244,9 @@ Mesh repair(const PolygonSoup& input, const RepairOptions& options, MeshReport& 
   check_soup(input, report.source);
 
   PolygonSoup soup = input;
-  tell(options, "joining points");
+  options.tell("joining points");
   weld_points(soup, options, report);
-  tell(options, "cutting polygons into facets");
+  options.tell("cutting polygons into facets");
   FacetCutter cutter(soup, report);
   for (std::size_t polygon = 0; polygon < soup.polygons.size(); ++polygon) cutter.add(polygon);
 
@@ -254,7 +254,7 @@ Mesh repair(const PolygonSoup& input, const RepairOptions& options, MeshReport& 
   drop_duplicates(mesh, report);
   close_slits(mesh, triangles_of(cutter.dropped()));
   {
-    tell(options, "orienting facets");
+    options.tell("orienting facets");
     const EdgeTable edges(mesh);
     report.changed.slits = count_slits(edges, cutter.dropped());
     orient(mesh, edges, options.orient, report);
@@ -262,7 +262,7 @@ Mesh repair(const PolygonSoup& input, const RepairOptions& options, MeshReport& 
   remove_unused_points(mesh, report);
   std::vector<std::string> refusals;
   if (!mesh.facets.empty() && cutter.refused().empty()) refusals = reshape(mesh, options, report);
-  tell(options, "measuring, and looking for facets that intersect");
+  options.tell("measuring, and looking for facets that intersect");
   report.after = measure(mesh, options.find_intersections || options.refuse_intersections);
   if (options.refuse_intersections && report.after.self_intersections.value_or(0) > 0)
     refusals.push_back(std::to_string(*report.after.self_intersections) +

@@ -35,12 +35,12 @@ struct RepairOptions {
   double target_edge = 0.0;
   /// Told where a repair is, as large meshes take a while; empty: nobody is.
   HearRepair hear = {};
-};
 
-/// Tells who listens, if anybody does.
-inline void tell(const RepairOptions& options, std::string_view step) {
-  if (options.hear) options.hear(step);
-}
+  /// Tells who listens, if anybody does.
+  void tell(std::string_view step) const {
+    if (hear) hear(step);
+  }
+};
 
 /// Turns polygons into facets over shared nodes and tells what that took.
 ///

@@ -35,12 +35,12 @@ void run_steps(Mesh& mesh, const RepairOptions& options, MeshReport& report) {
   MeshReport::Reshaped& done = *report.reshaped;
   if (options.fill_holes) {
     report.failed_step = RepairStep::fill_holes;
-    tell(options, "filling holes");
+    options.tell("filling holes");
     fill(mesh, options, report);
   }
   if (options.wrap) {
     report.failed_step = RepairStep::wrap;
-    tell(options, "wrapping");
+    options.tell("wrapping");
     const MeshMeasures now = measure(mesh, false);
     constexpr double kUsualDetail = 1.0 / 30.0;  // of the diagonal of the bounds
     const double diagonal = (now.bounds.upper - now.bounds.lower).norm();
@@ -49,7 +49,7 @@ void run_steps(Mesh& mesh, const RepairOptions& options, MeshReport& report) {
   }
   if (options.target_edge != 0.0) {
     report.failed_step = RepairStep::remesh;
-    tell(options, "remeshing");
+    options.tell("remeshing");
     mesh = remesh(mesh, options.target_edge);
     done.target_edge = options.target_edge;
   }
@@ -77,7 +77,7 @@ std::vector<std::string> reshape(Mesh& mesh, const RepairOptions& options, MeshR
             "; repair it in the program that made it"};
   }
   if (mesh.facets.empty()) return {"nothing is left of the surface; use a finer length"};
-  tell(options, "measuring how far the surface has moved");
+  options.tell("measuring how far the surface has moved");
   const SurfaceDistance distance = surface_distance(before, mesh);
   report.reshaped->distance = distance.sampled;
   report.reshaped->distance_bound = distance.bound;

@@ -134,7 +134,7 @@ TEST_F(StudyFile, RefusesResultsWithTheNameOfAnotherColumn) {
 }
 
 TEST_F(StudyFile, NamesEveryRowOfATableThatDoesNotFit) {
-  test::write_bytes(folder_ / "runs.csv", "a,b\n1,2\n3\n1,2,3\n");
+  test::write_bytes(folder_ / "runs.csv", "a.x,b.x\n1,2\n3\n1,2,3\n");
 
   EXPECT_THAT(problem(std::string("table = \"runs.csv\"\n") + kResults),
               AllOf(HasSubstr("runs.csv:3:1: got 1 cells; expected 2"),
@@ -148,15 +148,21 @@ TEST_F(StudyFile, RefusesATableWithTextBehindAQuoteOrAQuoteThatIsNotClosed) {
   EXPECT_THAT(problem(std::string("table = \"b.csv\"\n") + kResults),
               AllOf(HasSubstr("b.csv:2:1: cell 1: got \"ms\" behind a closing quote"),
                     HasSubstr("b.csv:4:1: cell 1: got a quote that is not closed")));
+}
 
-  test::write_bytes(folder_ / "b.csv", "\"simulation.duration\n1\n");
-  EXPECT_THAT(problem(std::string("table = \"b.csv\"\n") + kResults),
-              AllOf(HasSubstr("b.csv:1:1: cell 1: got a quote that is not closed"),
-                    Not(HasSubstr("rows"))));
+TEST_F(StudyFile, TellsNothingOfATableWhoseFirstRowIsNoneOfPaths) {
+  for (const std::string head :
+       {"root:x:0:0:root:/root", "a secret line", "secret", "a.b,", "\"a.\"b secret", "\"secret"}) {
+    SCOPED_TRACE(head);
+    test::write_bytes(folder_ / "b.csv", head + "\nhidden\n");
+    EXPECT_THAT(problem(std::string("table = \"b.csv\"\n") + kResults),
+                AllOf(HasSubstr("table: the first row of "), HasSubstr("is not one of paths"),
+                      Not(HasSubstr("secret")), Not(HasSubstr("root")), Not(HasSubstr("hidden"))));
+  }
 }
 
 TEST_F(StudyFile, RefusesNamesOfResultsThatASpreadsheetTakesForFormulas) {
-  for (const std::string name : {"=a", "+a", "-a", "@a"})
+  for (const std::string name : {"=a", "+a", "-a", "@a", "  =a"})
     EXPECT_THAT(
         problem("[grid]\na.b = [1]\n[results]\n\"" + name + "\" = { report = \"timing.steps\" }\n"),
         AllOf(HasSubstr("many.toml:5:"),

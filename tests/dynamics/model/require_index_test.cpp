@@ -153,5 +153,26 @@ TEST(IdsOfASimulation, LeaveTheSimulationAsItWasWhereTheyAreRefused) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(simulation.bonds().is_broken(i));
 }
 
+TEST(IdsOfASimulation, AreCheckedByItsBondsToo) {
+  const Simulation simulation(scene_of_three_nodes(), {});
+  const BeamBonds& bonds = simulation.bonds();
+  const NodeState& state = simulation.state();
+  const std::vector<std::function<void(std::size_t)>> calls = {
+      [&](std::size_t i) { bonds.nodes(i); },
+      [&](std::size_t i) { bonds.axial_force(i); },
+      [&](std::size_t i) { bonds.spring(i); },
+      [&](std::size_t i) { bonds.ends(i, state); },
+      [&](std::size_t i) { bonds.forces_of(i, state); },
+      [&](std::size_t i) { bonds.action_on(i, false, state); },
+      [&](std::size_t i) { bonds.lost_by_break(i, bonds.spring(0), state, 1e-6); },
+      [&](std::size_t i) { bonds.is_broken(i); },
+  };
+  for (const auto& call : calls) {
+    EXPECT_NO_THROW(call(2));
+    EXPECT_EQ(refusal_of([&] { call(3); }), "BeamBonds: there is no bond 3; there are 3");
+    EXPECT_NE(refusal_of([&] { call(std::size_t{0} - 1); }), "accepted");
+  }
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::require_index_test
