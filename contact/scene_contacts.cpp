@@ -93,8 +93,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
     const NodeId node = geometry::id_at<NodeId>(n);
     spheres_.push_back({node, surface.radius(structure),
                         materials_.of_structures[index_of(structure)], groups.group_of(node),
-                        materials_.mass_of(node)});
-    structures_of_nodes_.push_back(structure);
+                        materials_.mass_of(node), structure});
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/contact_kind.hpp"
 #include "contact/contact_model.hpp"
 #include "contact/sphere_plane/plane_contacts.hpp"
 #include "contact/sphere_plane/plane_neighbours.hpp"
@@ -59,34 +60,30 @@ class SceneContacts final : public Contacts {
             with_planes_.touching()};
   }
   double elastic_energy() const override {
-    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
-           between_structures_.elastic_energy() + with_planes_.elastic_energy();
+    double energy = 0.0;
+    for_each_kind([&](const ContactKind auto& kind) { energy += kind.elastic_energy(); });
+    return energy;
   }
   double dissipated() const noexcept override { return dissipated_; }
   double tracking_loss() const noexcept override { return tracking_loss_; }
   double largest_overlap_ratio() const noexcept override {
-    return std::max({with_spheres_.largest_overlap_ratio(), with_surfaces_.largest_overlap_ratio(),
-                     between_structures_.largest_overlap_ratio(),
-                     with_planes_.largest_overlap_ratio()});
+    double largest = 0.0;
+    for_each_kind([&](const ContactKind auto& kind) {
+      largest = std::max(largest, kind.largest_overlap_ratio());
+    });
+    return largest;
   }
   std::int64_t pass_throughs() const noexcept override { return with_surfaces_.pass_throughs(); }
   std::size_t crossings() const noexcept override { return between_structures_.crossings(); }
 
   void assign_ids() override {
-    with_spheres_.assign_ids(last_number_);
-    with_surfaces_.assign_ids(last_number_);
-    between_structures_.assign_ids(last_number_);
-    with_planes_.assign_ids(last_number_);
+    for_each_kind([&](ContactKind auto& kind) { kind.assign_ids(last_number_); });
   }
   void for_each_balanced(Positions x, Visit<const ContactRecord&> visit) const override {
     between_structures_.for_each_balanced(x, visit);
   }
   void for_each_record(Positions x, Visit<const ContactRecord&> visit) const override {
-    with_spheres_.for_each_record(x, visit);
-    with_surfaces_.for_each_record(x, visit);
-    between_structures_.for_each_record(x, visit);
-    with_planes_.for_each_record(
-        x, [this](std::int32_t sphere) { return structure_of(sphere); }, visit);
+    for_each_kind([&](const ContactKind auto& kind) { kind.for_each_record(x, visit); });
   }
   void for_each_structure_record_on(
       NodeId node, Positions x,
@@ -157,11 +154,20 @@ class SceneContacts final : public Contacts {
   }
 
  private:
-  /// -1 for a sphere.
-  geometry::StructureId structure_of(std::int32_t sphere) const noexcept {
-    const auto i = static_cast<std::size_t>(sphere);
-    const std::size_t first = spheres_.size() - structures_of_nodes_.size();
-    return i < first ? geometry::StructureId{-1} : structures_of_nodes_[i - first];
+  /// In the order in which contacts have their numbers and are told of.
+  template <class Visit>
+  void for_each_kind(const Visit& visit) const {
+    visit(with_spheres_);
+    visit(with_surfaces_);
+    visit(between_structures_);
+    visit(with_planes_);
+  }
+  template <class Visit>
+  void for_each_kind(const Visit& visit) {
+    visit(with_spheres_);
+    visit(with_surfaces_);
+    visit(between_structures_);
+    visit(with_planes_);
   }
   bool look_at_lists(const Motion& motion, geometry::ThreadPool& pool);
   double list_on_surfaces();
@@ -181,10 +187,10 @@ class SceneContacts final : public Contacts {
                                              const BodyPlaces& places) const;
 
   ContactMaterials materials_;
-  std::uint64_t materials_hash_;     ///< as they were at the start
-  std::vector<SphereBody> spheres_;  ///< the spheres, then the nodes of the surface
-  /// Of the nodes among these, in order. A node keeps its structure when its last element is gone.
-  std::vector<geometry::StructureId> structures_of_nodes_;
+  std::uint64_t materials_hash_;  ///< as they were at the start
+  /// The spheres, then the nodes of the surface. These keep their structures when their last
+  /// elements are gone.
+  std::vector<SphereBody> spheres_;
   geometry::Neighbours neighbours_;
   geometry::CellNeighbours cell_neighbours_;
   PlaneNeighbours plane_neighbours_;

@@ -43,13 +43,13 @@ struct BrokenParts {
 /// part of a surface in its range that hangs together, counted at every level, with phi(d) the
 /// energy of one contact at a distance. When a cylinder goes that the ball lies on,
 /// - its minimum d0 is gone, with phi(d0), and where the parts on either side stay in range each
-///   goes on by itself: the passes d1, d2 at its nodes, which counted -1, count no more, or its
-///   nodes are minima themselves, if they were none nor passes. Both parts are then whole contacts
+///   goes on by itself: the saddles d1, d2 at its nodes, which counted -1, count no more, or its
+///   nodes are minima themselves, if they were none nor saddles. Both parts are then whole contacts
 ///   up to the level where they hang together otherwise, if at all. A ball on the middle of a
 ///   straight wire goes from phi(d0) to 2 phi(d1), up to twice as much where the nodes are as near;
-/// - if it closed a ring, what the hole gave back goes with it: a jump by -phi at the distance at
-///   which the hole began, about that of the furthest pass of the ring. It has
-///   the other sign and is small where the ring closes just inside the range.
+/// - if it closed a cycle, what the hole gave back goes with it: a jump by -phi at the distance at
+///   which the hole began, about that of the furthest saddle of the cycle. It has
+///   the other sign and is small where the cycle closes just inside the range.
 /// So one cylinder with a minimum makes at most phi(d1) + phi(d2) - phi(d0), but for what holes
 /// beside it that become one share out anew.
 /// @param bonds, sheets  of the scene; tell which hold

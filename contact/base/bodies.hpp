@@ -19,6 +19,7 @@ struct SphereBody {
   MaterialId material;
   std::int32_t rigid_body = -1;  ///< that it is a part of, with the mass of all; -1: none
   double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+  geometry::StructureId structure{-1};  ///< that it is a node of; -1: a sphere by itself
 };
 
 /// Of a structure.

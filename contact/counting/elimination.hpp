@@ -47,8 +47,8 @@ class Elimination {
 
   /// How likely a random spanning forest of the last part leaves each link out, when forests are as
   /// likely as the products of their conductances: 0 of a bridge, and the sum is the number of
-  /// independent rings. Each is found to its last digits, however small it is: going back from mesh
-  /// to star, what a star leaves out is a sum of what its mesh does.
+  /// independent cycles. Each is found to its last digits, however small it is: going back from
+  /// mesh to star, what a star leaves out is a sum of what its mesh does.
   /// Source: Kirchhoff, Annalen der Physik 148 (1847); Burton & Pemantle, Annals of Probability 21
   /// (1993).
   /// @param values   by link: every conductance grows at the rate conductance * value

@@ -118,9 +118,9 @@ Filling LevelComplex::merged(const Filling& filling) const noexcept {
 bool LevelComplex::unite_links() noexcept {
   bool any = false;
   for (const Filling& filling : fillings_) {
-    const Filling ring = merged(filling);
-    if (ring.count != 2 || links_[ring.links[0]].a != ring.upper) continue;
-    root_[ring.links[1]] = ring.links[0];
+    const Filling cycle = merged(filling);
+    if (cycle.count != 2 || links_[cycle.links[0]].a != cycle.upper) continue;
+    root_[cycle.links[1]] = cycle.links[0];
     any = true;
   }
   return any;

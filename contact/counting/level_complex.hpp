@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/counting/ring_basis.hpp"
+#include "contact/counting/cycle_basis.hpp"
 
 #include <cstdint>
 #include <span>
@@ -16,12 +16,12 @@ namespace plekton::contact {
 /// A cell and every side of it stand where they are nearest: cells that stand at the same place are
 /// one vertex. A link joins the vertices of a cell and of a side of it, so it is there from the
 /// level of its upper end on, the side's. A cell, a corner of it (a side of a side) and the two
-/// sides between them are a ring of up to four links, which the cell fills. So what is nearer than
+/// sides between them are a cycle of up to four links, which the cell fills. So what is nearer than
 /// s has the pieces and the holes of the vertices, links and fillings below s: these are the order
 /// complex of the cells that reach below s, and a convex cell meets what is nearer than s in a
 /// convex set (nerve theorem). A cell that reaches below s does so with all it is a side of, so all
 /// that lies between two cells is there with them, and what hangs together over more than two
-/// dimensions is filled by such rings already.
+/// dimensions is filled by such cycles already.
 /// Source: Björner, Topological Methods, Handbook of Combinatorics (1995), 10 and 12.
 class LevelComplex {
  public:
@@ -37,8 +37,8 @@ class LevelComplex {
   void add_filling(std::uint32_t corner, std::uint32_t first_side, std::uint32_t cell,
                    std::uint32_t last_side);
   void sort_fillings();
-  /// Lets one link stand for all of two vertices that rings of these fill, at their level. Currents
-  /// that go round no filled ring are the same in all of them, so nothing changes.
+  /// Lets one link stand for all of two vertices that cycles of these fill, at their level.
+  /// Currents that go round no filled cycle are the same in all of them, so nothing changes.
   void merge_links();
 
   /// m, by vertex, ascending.

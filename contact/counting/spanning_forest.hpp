@@ -12,8 +12,8 @@
 namespace plekton::contact {
 
 /// A spanning forest of little resistance: no link of it resists more than twice what one does that
-/// is left out and closes a ring with it, nor at all if that one does not. Keeps its working space,
-/// so that a warm call does not allocate.
+/// is left out and closes a cycle with it, nor at all if that one does not. Keeps its working
+/// space, so that a warm call does not allocate.
 class SpanningForest {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

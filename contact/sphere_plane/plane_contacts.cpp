@@ -36,7 +36,7 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
       kept.parameters = parameters;
       return kept;
     }
-    return Slot{sphere.node, false, plane, sphere.radius, parameters, {}};
+    return Slot{sphere.node, sphere.structure, false, plane, sphere.radius, parameters, {}};
   };
   rekey_(slots_, keys, make,
          [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.state.memory, {}); });
@@ -210,7 +210,7 @@ double PlaneContacts::end_contact(Slot& slot, double height, const Plane& plane,
   ContactMemory<AnyLaw>& memory = slot.state.memory;
   const auto pair =
       motion_of(slot, distance * memory.normal, plane, motion).at(memory.normal, distance);
-  const double lost = forget<AnyLaw>(slot.parameters, memory, last_way(pair, dt));
+  const double lost = forget<AnyLaw>(slot.parameters, memory, last_displacement(pair, dt));
   slot.state = {};
   return lost;
 }
@@ -402,23 +402,19 @@ void PlaneContacts::assign_ids(std::int64_t& last) {
     if (slot.touches && slot.state.id == 0) slot.state.id = ++last;
 }
 
-void PlaneContacts::for_each_record(
-    Positions x, geometry::FunctionRef<geometry::StructureId(std::int32_t)> structure_of,
-    VisitRecord visit) const {
+void PlaneContacts::for_each_record(Positions x, VisitRecord visit) const {
   know_states();
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     if (!slot.touches) continue;
     const PairState& state = slot.state;
     const geometry::Feature node(slot.node);
-    const std::int32_t sphere = rekey_.key(i).a;
-    const geometry::StructureId structure = structure_of(sphere);
     ContactRecord row;
     row.id = state.id;
     // Spheres come first among the spheres.
-    row.a = structure == geometry::StructureId{-1}
-                ? ContactBody{BodyKind::sphere, sphere, node}
-                : ContactBody{BodyKind::structure, static_cast<std::int32_t>(structure), node};
+    row.a = slot.structure == geometry::StructureId{-1}
+                ? ContactBody{BodyKind::sphere, rekey_.key(i).a, node}
+                : ContactBody{BodyKind::structure, static_cast<std::int32_t>(slot.structure), node};
     row.b = {BodyKind::plane, static_cast<std::int32_t>(slot.plane), {}};
     row.normal = state.memory.normal;
     row.gap = state.gap;

@@ -88,10 +88,7 @@ class PlaneContacts {
   void assign_ids(std::int64_t& last);
 
   /// Calls visit(ContactRecord) for every touching pair of the last step, in the order of the list.
-  /// @param structure_of  (sphere of the list) -> of what it is a node; -1 for a sphere by itself
-  void for_each_record(Positions x,
-                       geometry::FunctionRef<geometry::StructureId(std::int32_t)> structure_of,
-                       VisitRecord visit) const;
+  void for_each_record(Positions x, VisitRecord visit) const;
 
   /// @param list  makes the list anew by rebuild()
   void exchange(const geometry::StateArchive& archive, std::size_t plane_count,
@@ -115,7 +112,8 @@ class PlaneContacts {
 
   struct Slot {
     NodeId node;
-    bool touches = false;  ///< in the last step
+    geometry::StructureId structure{-1};  ///< see SphereBody
+    bool touches = false;                 ///< in the last step
     std::size_t plane;
     double radius;
     AnyLaw::Parameters parameters;

@@ -60,7 +60,7 @@ struct SphereMotionOf {
 };
 
 /// How a pair moves in the step (s) that ends its contact.
-inline LastWay last_way(const SpherePairOf<double>& pair, double dt) noexcept {
+inline LastDisplacement last_displacement(const SpherePairOf<double>& pair, double dt) noexcept {
   return {dt * pair.contact_velocity(), dt * (pair.spin_b - pair.spin_a)};
 }
 

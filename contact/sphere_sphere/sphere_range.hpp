@@ -257,7 +257,7 @@ void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexc
   if (spheres.touch() == 0.0 &&
       (memory.is_new() ||
        !goes_on<Law>(of_pair, memory.history, distance - (spheres.radius_a + spheres.radius_b)))) {
-    const LastWay last = last_way(spheres.at(memory.normal, distance), work_.dt);
+    const LastDisplacement last = last_displacement(spheres.at(memory.normal, distance), work_.dt);
     work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory, last);
     return keep(0);
   }

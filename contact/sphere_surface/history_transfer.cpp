@@ -68,7 +68,7 @@ double HistoryTransfer::loss_of(const SphereSurfacePair& pair, const PatchContac
   state.gap = foot.distance - pair.range;
   state.foot = foot.distance * foot.direction;
   set_kinematics(state, foot.core, pair.node, pair.radius, pair.range, motion);
-  return loss_at_end<AnyLaw>(pair.parameters, old.memory, state.way_in(dt));
+  return loss_at_end<AnyLaw>(pair.parameters, old.memory, state.displacement_in(dt));
 }
 
 void HistoryTransfer::hand_on_number(const PatchContact& old,

@@ -13,9 +13,9 @@ namespace plekton::contact {
 
 using geometry::Feature;
 
-/// The part of a surface nearer than a range to a point, as nodes, links and filled rings that hang
-/// together as it does, at any level (distance) below the range (level_complex.hpp). A cell and
-/// every side of it stand at the foot point, on the feature that holds it.
+/// The part of a surface nearer than a range to a point, as nodes, links and filled cycles that
+/// hang together as it does, at any level (distance) below the range (level_complex.hpp). A cell
+/// and every side of it stand at the foot point, on the feature that holds it.
 class NearComplex {
  public:
   /// A feature that holds its own nearest point.

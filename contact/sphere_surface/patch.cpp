@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/patch.hpp"
 
-#include "contact/counting/ring_weights.hpp"
+#include "contact/counting/cycle_weights.hpp"
 #include "contact/sphere_surface/near_complex.hpp"
 #include "geometry/critical/descent.hpp"
 
@@ -12,15 +12,15 @@
 namespace plekton::contact {
 namespace {
 
-/// A walk downhill from a pass in range ends in range, but for the last ulp of the distances: there
-/// the overlap of the pass is nothing but rounding, and the pass is left out.
+/// A walk downhill from a saddle in range ends in range, but for the last ulp of the distances:
+/// there the overlap of the saddle is nothing but rounding, and the saddle is left out.
 constexpr std::uint32_t kOutOfRange = std::numeric_limits<std::uint32_t>::max();
 
 bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature* b) noexcept {
   return a->distance != b->distance ? a->distance < b->distance : a->core.feature < b->core.feature;
 }
 
-/// Of a minimum or a pass.
+/// Of a minimum or a saddle.
 PatchTerm term_of(const geometry::CriticalFeature& feature, double weight, double share) noexcept {
   return {feature.core, feature.direction,   feature.distance, weight, 0.0, 0.0,
           share,        feature.is_minimum()};
@@ -38,7 +38,7 @@ PatchFinder::PatchFinder(const geometry::Surface& surface)
     : surface_(&surface),
       critical_(surface),
       near_(std::make_unique<NearComplex>()),
-      rings_(std::make_unique<RingWeights>()) {}
+      cycles_(std::make_unique<CycleWeights>()) {}
 
 PatchFinder::PatchFinder(PatchFinder&&) noexcept = default;
 PatchFinder& PatchFinder::operator=(PatchFinder&&) noexcept = default;
@@ -72,11 +72,11 @@ void PatchFinder::find_several(std::span<const Critical> critical, const Vec3& c
                                std::span<const geometry::CellId> cells, Positions x,
                                const NormalLaw& law) {
   sort_out(critical);
-  link_passes(centre, x);
+  link_saddles(centre, x);
   join_parts();
   rooted_.clear();
-  if (has_rings_) {
-    add_terms_of_rings(centre, range, cells, x, law);
+  if (has_cycles_) {
+    add_terms_of_cycles(centre, range, cells, x, law);
   } else {
     add_terms();
   }
@@ -84,7 +84,7 @@ void PatchFinder::find_several(std::span<const Critical> critical, const Vec3& c
   collect_patches();
 }
 
-/// Most often there is nothing else in range: what the steps below make of that. A pass alone, as
+/// Most often there is nothing else in range: what the steps below make of that. A saddle alone, as
 /// rounding of the distances may leave it, belongs to no patch.
 void PatchFinder::keep_alone(std::span<const Critical> critical) {
   patches_.clear();
@@ -98,17 +98,17 @@ void PatchFinder::keep_alone(std::span<const Critical> critical) {
 
 void PatchFinder::sort_out(std::span<const Critical> critical) {
   minima_.clear();
-  passes_.clear();
+  saddles_.clear();
   for (const Critical& feature : critical)
-    (feature.is_minimum() ? minima_ : passes_).push_back(&feature);
+    (feature.is_minimum() ? minima_ : saddles_).push_back(&feature);
   std::sort(minima_.begin(), minima_.end(), nearer);
-  std::sort(passes_.begin(), passes_.end(), nearer);
+  std::sort(saddles_.begin(), saddles_.end(), nearer);
 }
 
-void PatchFinder::link_passes(const Vec3& centre, Positions x) {
+void PatchFinder::link_saddles(const Vec3& centre, Positions x) {
   number_vertices();
   links_.clear();
-  pass_links_.clear();
+  saddle_links_.clear();
   for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count(); ++i)
     add_links(i, centre, x);
 }
@@ -137,8 +137,8 @@ std::size_t PatchFinder::place_of(Feature feature) const noexcept {
   return first + static_cast<std::size_t>(feature.id);
 }
 
-void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, Positions x) {
-  const Critical& upper = critical_of(pass);
+void PatchFinder::add_links(std::uint32_t saddle, const Vec3& centre, Positions x) {
+  const Critical& upper = critical_of(saddle);
   const auto first = static_cast<std::uint32_t>(links_.size());
   for (const Feature branch : critical_.branches(upper.core.feature, centre, x)) {
     const std::uint32_t below = vertex_below(branch, centre, x);
@@ -146,9 +146,9 @@ void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, Positions x)
       links_.resize(first);
       return;
     }
-    links_.push_back({below, pass});
+    links_.push_back({below, saddle});
   }
-  pass_links_.push_back({pass, first, static_cast<std::uint32_t>(links_.size()) - first});
+  saddle_links_.push_back({saddle, first, static_cast<std::uint32_t>(links_.size()) - first});
 }
 
 /// The vertex that a foot is; kOutOfRange if it is none.
@@ -172,11 +172,11 @@ std::uint32_t PatchFinder::root_of(std::uint32_t vertex) const noexcept {
   return vertex;
 }
 
-/// Level by level: which parts hang together, and whether rings close.
+/// Level by level: which parts hang together, and whether cycles close.
 void PatchFinder::join_parts() {
   root_.resize(vertex_count());
   std::iota(root_.begin(), root_.end(), 0U);
-  has_rings_ = false;
+  has_cycles_ = false;
   weights_.assign(vertex_count(), 0.0);
   distances_.clear();
   for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) {
@@ -185,36 +185,36 @@ void PatchFinder::join_parts() {
   }
   merging_.begin(distances_);
   part_ = root_;
-  for (const PassLinks& pass : pass_links_) {
-    weights_[pass.pass] = 1.0 - critical_of(pass.pass).branches;
-    for (std::uint32_t i = 0; i < pass.link_count; ++i) join(links_[pass.first_link + i]);
+  for (const SaddleLinks& saddle : saddle_links_) {
+    weights_[saddle.saddle] = 1.0 - critical_of(saddle.saddle).branches;
+    for (std::uint32_t i = 0; i < saddle.link_count; ++i) join(links_[saddle.first_link + i]);
   }
   shares_ = merging_.shares();
 }
 
 void PatchFinder::join(const Link& link) {
   const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
-  has_rings_ = has_rings_ || low == high;
+  has_cycles_ = has_cycles_ || low == high;
   root_[high] = low;
-  // The pass itself is no part; the way to it from any other is that of the first minimum below.
+  // The saddle itself is no part; the way to it from any other is that of the first minimum below.
   if (low == high || high >= minima_.size()) return;
   part_[low] = merging_.join(part_[low], part_[high], critical_of(link.b).distance);
 }
 
-void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
-                                     std::span<const geometry::CellId> cells, Positions x,
-                                     const NormalLaw& law) {
+void PatchFinder::add_terms_of_cycles(const Vec3& centre, double range,
+                                      std::span<const geometry::CellId> cells, Positions x,
+                                      const NormalLaw& law) {
   near_->build(*surface_, centre, range, cells, x);
   const auto feet = near_->vertices();
   energies_.clear();
   for (const NearComplex::Vertex& foot : feet) energies_.push_back(law.energy(foot.distance));
-  const auto shares = rings_->find(near_->levels(), range, energies_);
+  const auto shares = cycles_->find(near_->levels(), range, energies_);
   if (shares.empty()) return;
   Feature root = feet.front().core.feature;  // of the piece that was looked at last
   std::uint32_t below = vertex_below(root, centre, x);
-  for (const RingWeights::Share& share : shares) {
+  for (const CycleWeights::Share& share : shares) {
     const NearComplex::Vertex& foot = feet[share.vertex];
-    const Feature own_root = feet[rings_->root_of(share.vertex)].core.feature;
+    const Feature own_root = feet[cycles_->root_of(share.vertex)].core.feature;
     if (own_root != root) below = vertex_below(root = own_root, centre, x);
     if (below == kOutOfRange) continue;
     const std::uint32_t own = vertex_of(foot.core.feature);

@@ -17,17 +17,17 @@
 ///
 /// The energy of a patch counts pieces: the part of the surface nearer than s has so many pieces,
 /// for every level s, and each of them pushes as one contact. With phi(d) the energy of one contact
-/// at a distance d that is the sum of phi over the minima less that over the passes, as often as
+/// at a distance d that is the sum of phi over the minima less that over the saddles, as often as
 /// each joins pieces. So a flat or convex surface pushes exactly once, a sharp corner from both
 /// sides, and the force is continuous in between, with no tolerance: the natural scale is the
-/// overlap itself. A pass that closes a ring joins nothing; what it takes too much is given back,
-/// smoothly (ring_weights.hpp). Tops, which fill rings or shut hollows, count for nothing. What a
-/// wire or a net that wraps the sphere loses as its bars hang together is given back as far as it
-/// turns around it (wrap.hpp).
+/// overlap itself. A saddle that closes a cycle joins nothing; what it takes too much is given
+/// back, smoothly (cycle_weights.hpp). Maxima, which fill cycles or shut voids, count for nothing.
+/// What a wire or a net that wraps the sphere loses as its bars hang together is given back as far
+/// as it turns around it (wrap.hpp).
 ///
 /// The energy depends on the places of the sphere and of the nodes alone, and the force on each of
-/// them is its gradient, for every law: no energy is gained in any closed cycle, however the
-/// surface deforms.
+/// them is its gradient, for every law: no energy is gained in any closed path of motion, however
+/// the surface deforms.
 namespace plekton::contact {
 
 using geometry::Feature;
@@ -35,7 +35,7 @@ using geometry::NodeId;
 using geometry::Positions;
 
 class NearComplex;
-class RingWeights;
+class CycleWeights;
 
 /// What one critical feature adds to a patch. Side a is the sphere, side b the surface.
 struct PatchTerm {
@@ -44,7 +44,7 @@ struct PatchTerm {
   double distance;           ///< m
   double weight;             ///< of the energy of one contact at this distance
   double slope;              ///< N, what the force has beside weight * force of one contact: on
-                             ///< rings and wraps, where weights change with the distances
+                             ///< cycles and wraps, where weights change with the distances
   double energy;             ///< J, what the energy has beside weight * energy of one contact
   double share;              ///< of what the patch holds beside its elastic force: all of it, in
                              ///< sum, is held by minima (merge_shares.hpp)
@@ -73,7 +73,7 @@ class PatchFinder {
   /// @param centre  m, of the sphere
   /// @param range   m, sphere's radius + radius of the cells: what counts as in range
   /// @param cells   ascending; every cell nearer than range, all of one radius
-  /// @param law     of one contact: slopes of rings depend on it, and wraps, nothing else
+  /// @param law     of one contact: slopes of cycles depend on it, and wraps, nothing else
   /// @returns       sorted by root; valid until the next call
   std::span<const Patch> find(const Vec3& centre, double range,
                               std::span<const geometry::CellId> cells, Positions x,
@@ -96,14 +96,14 @@ class PatchFinder {
   void find_several(std::span<const Critical> critical, const Vec3& centre, double range,
                     std::span<const geometry::CellId> cells, Positions x, const NormalLaw& law);
   void sort_out(std::span<const Critical> critical);
-  void link_passes(const Vec3& centre, Positions x);
+  void link_saddles(const Vec3& centre, Positions x);
   void number_vertices();
   std::size_t place_of(Feature feature) const noexcept;
-  void add_links(std::uint32_t pass, const Vec3& centre, Positions x);
+  void add_links(std::uint32_t saddle, const Vec3& centre, Positions x);
   std::uint32_t vertex_of(Feature foot) const noexcept;
   std::uint32_t vertex_below(Feature branch, const Vec3& centre, Positions x) const;
   const Critical& critical_of(std::uint32_t vertex) const noexcept {
-    return vertex < minima_.size() ? *minima_[vertex] : *passes_[vertex - minima_.size()];
+    return vertex < minima_.size() ? *minima_[vertex] : *saddles_[vertex - minima_.size()];
   }
   std::uint32_t root_of(std::uint32_t vertex) const noexcept;
   void join_parts();
@@ -111,8 +111,9 @@ class PatchFinder {
   double share_of(std::uint32_t vertex) const noexcept {
     return vertex < minima_.size() ? shares_[vertex] : 0.0;
   }
-  void add_terms_of_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
-                          Positions x, const NormalLaw& law);
+  void add_terms_of_cycles(const Vec3& centre, double range,
+                           std::span<const geometry::CellId> cells, Positions x,
+                           const NormalLaw& law);
   void find_wraps(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
                   Positions x, const NormalLaw& law);
   void find_wrap(geometry::NodeId node, const Vec3& centre, double range, Positions x,
@@ -125,7 +126,7 @@ class PatchFinder {
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
   std::unique_ptr<NearComplex> near_;
-  std::unique_ptr<RingWeights> rings_;
+  std::unique_ptr<CycleWeights> cycles_;
   std::vector<WrapArm> arms_;  ///< of a node
   std::vector<geometry::NodeId> arm_ends_;
   std::vector<double> energies_;  ///< J, by vertex of near_
@@ -138,21 +139,21 @@ class PatchFinder {
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
 
-  /// The links of a pass down to the minima and passes below it.
-  struct PassLinks {
-    std::uint32_t pass;  ///< its vertex
+  /// The links of a saddle down to the minima and saddles below it.
+  struct SaddleLinks {
+    std::uint32_t saddle;  ///< its vertex
     std::uint32_t first_link;
     std::uint32_t link_count;
   };
-  std::vector<const Critical*> minima_;  ///< nearest first
-  std::vector<const Critical*> passes_;  ///< and tops: what is no minimum; nearest first
-  // Features as vertices of the graph: minima first, then passes.
+  std::vector<const Critical*> minima_;   ///< nearest first
+  std::vector<const Critical*> saddles_;  ///< and maxima: what is no minimum; nearest first
+  // Features as vertices of the graph: minima first, then saddles.
   std::uint32_t vertex_count() const noexcept {
-    return static_cast<std::uint32_t>(minima_.size() + passes_.size());
+    return static_cast<std::uint32_t>(minima_.size() + saddles_.size());
   }
   std::vector<std::uint32_t> vertex_at_;  ///< by place of a feature
   std::vector<std::size_t> places_;       ///< that have one
-  std::vector<PassLinks> pass_links_;
+  std::vector<SaddleLinks> saddle_links_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one
                                      ///< on the way to it
@@ -161,7 +162,7 @@ class PatchFinder {
   std::vector<std::uint32_t> part_;  ///< in merging_, by root
   std::vector<double> distances_;    ///< m, of minima_
   std::span<const double> shares_;   ///< by minimum
-  bool has_rings_ = false;
+  bool has_cycles_ = false;
   struct RootedTerm {
     std::uint32_t root;
     std::uint32_t order;

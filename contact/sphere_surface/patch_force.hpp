@@ -25,13 +25,15 @@ struct PatchState {
   double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
 
   /// In a step (s) that ends the contact.
-  LastWay way_in(double dt) const { return {dt * relative_velocity, dt * relative_spin}; }
+  LastDisplacement displacement_in(double dt) const {
+    return {dt * relative_velocity, dt * relative_spin};
+  }
 };
 
 /// What a term carries of its patch.
 struct PatchTermForce {
-  double elastic;     ///< N, along the term's normal; negative for a pass
-  double attraction;  ///< N, against the term's normal; negative for a pass
+  double elastic;     ///< N, along the term's normal; negative for a saddle
+  double attraction;  ///< N, against the term's normal; negative for a saddle
   double share;       ///< of every other force of the patch; the shares of a patch add up to 1
 
   /// N, a force on b and the attraction.

@@ -322,7 +322,7 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
                                     const Transferred& transferred, double dt, int worker_index) {
   if (!(state.gap < 0.0) && !AnyLaw::holds(transferred.history))
     return loss_at_end<AnyLaw>(pair.parameters, {transferred.history, state.normal},
-                               state.way_in(dt));
+                               state.displacement_in(dt));
   PatchContacts::List& list = current_.of_worker(worker_index);
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);

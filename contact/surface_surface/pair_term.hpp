@@ -29,7 +29,7 @@ struct PairTerm {
   double overlap = 0.0;      ///< m, of the nearest points
   double point_share = 1.0;  ///< of the weight, that the nearest points have (point_share.hpp)
   PairForces forces;         ///< weight times those of the nearest points, plus those of the extent
-  double own_energy = 0.0;   ///< J, of these, without joints and rings
+  double own_energy = 0.0;   ///< J, of these, without joints and cycles
   double push = 0.0;         ///< N, how hard these push the features apart, along their normal
 };
 

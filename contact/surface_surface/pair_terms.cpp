@@ -75,8 +75,8 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   tilts_.resize(pairs.size());
   extents_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
-  ring_tilts_.assign(pairs.size(), {});
-  has_ring_tilts_ = false;
+  cycle_tilts_.assign(pairs.size(), {});
+  has_cycle_tilts_ = false;
   clearances_.clear();
   joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, {}});
@@ -126,7 +126,7 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   list_acting();
   acting_changed_ = terms_are_new_ || acting_ != acted_;
   if (acting_changed_) parts_.find(in_range(), term_of_pair_.size());
-  give_back_of_rings(springs, motion.position, pool);
+  give_back_of_cycles(springs, motion.position, pool);
   tilt_cells(springs, motion.position, pool);
   joints_.gather(acting_);
   terms_are_new_ = false;
@@ -291,47 +291,47 @@ RimPlaces PairTerms::rims_of(const PairTerm& term, const NearestCorners& nearest
   return rim_places(*surface_, cells, some_of(term.a, nearest.a), some_of(term.b, nearest.b));
 }
 
-void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x,
-                                   geometry::ThreadPool& pool) {
-  if (has_ring_tilts_) ring_tilts_.assign(term_of_pair_.size(), {});
-  has_ring_tilts_ = false;
-  const double least_life = RingWeights::kLeastLife * largest_range_;
+void PairTerms::give_back_of_cycles(std::span<const NormalSpring> springs, Positions x,
+                                    geometry::ThreadPool& pool) {
+  if (has_cycle_tilts_) cycle_tilts_.assign(term_of_pair_.size(), {});
+  has_cycle_tilts_ = false;
+  const double least_life = CycleWeights::kLeastLife * largest_range_;
   for (const std::uint32_t part :
        search_.find(in_range(), parts_, acting_changed_, least_life, pool))
     give_back(part, springs, x);
 }
 
 void PairTerms::give_back(std::uint32_t part, std::span<const NormalSpring> springs, Positions x) {
-  ring_pairs_.clear();
+  cycle_pairs_.clear();
   for (const std::uint32_t place : parts_.places(part)) {
     const PairTerm& term = terms_[acting_[place]];
-    if (term.is_of_cells) ring_pairs_.push_back(holders(term).front().pair);
+    if (term.is_of_cells) cycle_pairs_.push_back(holders(term).front().pair);
   }
-  std::sort(ring_pairs_.begin(), ring_pairs_.end());
-  const std::span<const std::uint32_t> pairs = ring_pairs_;
+  std::sort(cycle_pairs_.begin(), cycle_pairs_.end());
+  const std::span<const std::uint32_t> pairs = cycle_pairs_;
   const NormalSpring& spring = springs[of_cells(pairs.front()).spring];
   const double share = flatness_share(pairs, spring.range());
   // Less would drown in the rounding of what there is.
   if (share < std::numeric_limits<double>::epsilon()) return;
-  ring_cells_.clear();
+  cycle_cells_.clear();
   for (const std::uint32_t pair : pairs)
-    ring_cells_.push_back({&of_cells(pair).a, &of_cells(pair).b, &proximity_[pair].cores});
-  complex_.build(ring_cells_, spring.range(), x);
+    cycle_cells_.push_back({&of_cells(pair).a, &of_cells(pair).b, &proximity_[pair].cores});
+  complex_.build(cycle_cells_, spring.range(), x);
   counts_.assign(complex_.levels().distances().size(), 0.0);
   for (const std::uint32_t place : parts_.places(part)) {
     const PairTerm& term = terms_[acting_[place]];
     const std::uint32_t vertex = complex_.vertex_of(term.a, term.b);
     if (vertex != ProductComplex::kNone) counts_[vertex] += term.weight;
   }
-  if (!complex_.levels().fillings().empty() && most_rings() > kMostRings) return;
-  add_rings(pairs, share, spring, false);
-  if (spring.attracts()) add_rings(pairs, share, spring.attraction(), true);
+  if (!complex_.levels().fillings().empty() && most_cycles() > kMostCycles) return;
+  add_cycles(pairs, share, spring, false);
+  if (spring.attracts()) add_cycles(pairs, share, spring.attraction(), true);
 }
 
 /// Of the part whose counts these are, at any level.
-double PairTerms::most_rings() const noexcept {
-  double pieces_less_rings = 0.0, least = 1.0;
-  for (const double count : counts_) least = std::min(least, pieces_less_rings += count);
+double PairTerms::most_cycles() const noexcept {
+  double pieces_less_cycles = 0.0, least = 1.0;
+  for (const double count : counts_) least = std::min(least, pieces_less_cycles += count);
   return 1.0 - least;
 }
 
@@ -344,8 +344,8 @@ double PairTerms::flatness_share(std::span<const std::uint32_t> pairs,
 }
 
 /// Spreads what a place does over the pairs of cells that have it.
-void PairTerms::add_rings(std::span<const std::uint32_t> pairs, double share,
-                          const NormalSpring& spring, bool pulls) {
+void PairTerms::add_cycles(std::span<const std::uint32_t> pairs, double share,
+                           const NormalSpring& spring, bool pulls) {
   const auto distances = complex_.levels().distances();
   energies_.clear();
   weights_.clear();
@@ -354,7 +354,7 @@ void PairTerms::add_rings(std::span<const std::uint32_t> pairs, double share,
     weights_.push_back(-counts_[i]);
   }
   slopes_.assign(distances.size(), 0.0);
-  for (const RingWeights::Share& of : rings_.find(complex_.levels(), spring.range(), energies_)) {
+  for (const CycleWeights::Share& of : cycles_.find(complex_.levels(), spring.range(), energies_)) {
     weights_[of.vertex] += of.weight;
     slopes_[of.vertex] = of.slope;
   }
@@ -396,8 +396,8 @@ void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy
     add_on_nodes(term.a, forces.on_a, term, to);
     add_on_nodes(term.b, forces.on_b, term, to);
     if (!pulls) term.push += force;
-    ring_tilts_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
-    has_ring_tilts_ = true;
+    cycle_tilts_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
+    has_cycle_tilts_ = true;
   }
 }
 
@@ -425,7 +425,7 @@ void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x,
 }
 
 void PairTerms::tilt(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x) {
-  std::array<double, 2> by_tilt = ring_tilts_[pair];
+  std::array<double, 2> by_tilt = cycle_tilts_[pair];
   for (const std::uint32_t i : terms_of(pair)) {
     if (is_near_[holders_of(i).front().pair] == 0 || shared_[i] == std::array{0.0, 0.0}) continue;
     const PairTerm& term = terms_[i];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/counting/ring_weights.hpp"
+#include "contact/counting/cycle_weights.hpp"
 #include "contact/surface_surface/clearances.hpp"
+#include "contact/surface_surface/cycle_search.hpp"
 #include "contact/surface_surface/pair_term.hpp"
 #include "contact/surface_surface/product_complex.hpp"
-#include "contact/surface_surface/ring_search.hpp"
 #include "contact/surface_surface/term_parts.hpp"
 #include "contact/surface_surface/wrapped_joints.hpp"
 #include "geometry/base/thread_pool.hpp"
@@ -26,30 +26,31 @@ namespace plekton::contact::structure {
 /// to be found.
 ///
 /// Their weights add up to Euler's number of what is in range. Where that is not the number of
-/// pieces (ring_search.hpp), because a saddle that closes a ring takes one contact away that no
+/// pieces (cycle_search.hpp), because a saddle that closes a cycle takes one contact away that no
 /// pieces have merged for, and the maximum that fills it adds one again, the rule for a sphere on a
-/// surface holds (patch.hpp): contacts are counted by pieces, and a ring gives back what its saddle
-/// takes, smoothly (ring_weights.hpp), here with the pairs of features of both bodies
+/// surface holds (patch.hpp): contacts are counted by pieces, and a cycle gives back what its
+/// saddle takes, smoothly (cycle_weights.hpp), here with the pairs of features of both bodies
 /// (product_complex.hpp). With the weights W of that rule, and the w of all terms that stand at one
 /// place, each place adds g * (W - sum of w) * phi(distance) to the energy. That is 0 where there
 /// are pieces alone, and changes continuously from there on, as W does; for each energy of the law
 /// the force is its gradient. g is the product of the point shares of all pairs of facets of the
 /// part (point_share.hpp): 1 where none lie flat on each other, 0 where some do. There the area is
-/// measured and nearest points are anywhere, so rings of them mean nothing. As one g is for all of a
-/// part, the energy leaps where a part with rings comes to touch one that lies partly flat: seen with
-/// 3 of 10 000 pairs of shells that are pressed through each other, by up to 20 % of what they store.
-/// (With a g for each place, the mean of the product over all levels at which others hang together
-/// with it, three that were tried did not leap, but rings of all sheets that lie nearly flat have to
-/// be found: two sheets of 10 x 10 squares on each other take more than 30 times as long.)
+/// measured and nearest points are anywhere, so cycles of them mean nothing. As one g is for all of
+/// a part, the energy leaps where a part with cycles comes to touch one that lies partly flat: seen
+/// with 3 of 10 000 pairs of shells that are pressed through each other, by up to 20 % of what they
+/// store. (With a g for each place, the mean of the product over all levels at which others hang
+/// together with it, three that were tried did not leap, but cycles of all sheets that lie nearly
+/// flat have to be found: two sheets of 10 x 10 squares on each other take more than 30 times as
+/// long.)
 ///
-/// The cost grows with the third power of the rings of a part that something fills. So a part of
-/// more than kMostRings, as of a sheet that lies on a fine net, keeps what its terms add up to: one
-/// contact less for each ring, beside all that the extents of bars and facets count there. Its
+/// The cost grows with the third power of the cycles of a part that something fills. So a part of
+/// more than kMostCycles, as of a sheet that lies on a fine net, keeps what its terms add up to:
+/// one contact less for each cycle, beside all that the extents of bars and facets count there. Its
 /// energy jumps where it comes to have more.
 class PairTerms {
  public:
   /// At 64 a sheet on a net takes 12 ms a step, six times what it takes without.
-  static constexpr double kMostRings = 64.0;
+  static constexpr double kMostCycles = 64.0;
 
   explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
 
@@ -72,7 +73,7 @@ class PairTerms {
     return terms_[term_of_pair_[pair]];
   }
 
-  /// What a spring does in a term of two cells in range by itself, without joints and rings: the
+  /// What a spring does in a term of two cells in range by itself, without joints and cycles: the
   /// gradient of its own energy.
   PairForces own_forces(std::size_t term, const NormalSpring& spring, Positions x) const;
 
@@ -156,13 +157,13 @@ class PairTerms {
   RimPlaces rims_of(const PairTerm& term, const NearestCorners& nearest, std::uint32_t pair) const;
   double turn_rims(std::uint32_t term, std::uint32_t pair, const std::array<double, 2>& energies,
                    Positions x);
-  void give_back_of_rings(std::span<const NormalSpring> springs, Positions x,
-                          geometry::ThreadPool& pool);
+  void give_back_of_cycles(std::span<const NormalSpring> springs, Positions x,
+                           geometry::ThreadPool& pool);
   void give_back(std::uint32_t part, std::span<const NormalSpring> springs, Positions x);
-  double most_rings() const noexcept;
+  double most_cycles() const noexcept;
   double flatness_share(std::span<const std::uint32_t> pairs, double range) const noexcept;
-  void add_rings(std::span<const std::uint32_t> pairs, double share, const NormalSpring& spring,
-                 bool pulls);
+  void add_cycles(std::span<const std::uint32_t> pairs, double share, const NormalSpring& spring,
+                  bool pulls);
   void add_flatness(std::span<const std::uint32_t> pairs, double energy, double range, bool pulls);
   void tilt_cells(std::span<const NormalSpring> springs, Positions x, geometry::ThreadPool& pool);
   void tilt(std::uint32_t pair, std::span<const NormalSpring> springs, Positions x);
@@ -193,19 +194,19 @@ class PairTerms {
   /// J, by term: what the share of a term in range is of; of attraction in the second. Of terms out
   /// of range that a pair in range has first, 0.
   std::vector<std::array<double, 2>> shared_;
-  std::vector<NearestCorners> nearest_;            ///< by term, of those in range
-  std::vector<std::array<double, 2>> ring_tilts_;  ///< J, by pair of cells: of rings, by its tilt
-  bool has_ring_tilts_ = false;                    ///< any of them may not be 0
-  std::vector<char> is_acting_;                    ///< by term; all 0 between calls
+  std::vector<NearestCorners> nearest_;             ///< by term, of those in range
+  std::vector<std::array<double, 2>> cycle_tilts_;  ///< J, by pair of cells: of cycles, by its tilt
+  bool has_cycle_tilts_ = false;                    ///< any of them may not be 0
+  std::vector<char> is_acting_;                     ///< by term; all 0 between calls
   std::vector<std::uint32_t> acting_;
   std::vector<std::uint32_t> acted_;  ///< in the step before
   bool acting_changed_ = false;
   TermParts parts_;
-  RingSearch search_;
+  CycleSearch search_;
   ProductComplex complex_;
-  RingWeights rings_;
-  std::vector<std::uint32_t> ring_pairs_;
-  std::vector<ProductComplex::CellPair> ring_cells_;
+  CycleWeights cycles_;
+  std::vector<std::uint32_t> cycle_pairs_;
+  std::vector<ProductComplex::CellPair> cycle_cells_;
   std::vector<double> counts_;    ///< by vertex: weights of the terms that stand there
   std::vector<double> energies_;  ///< J, by vertex
   std::vector<double> weights_;   ///< by vertex: beside those

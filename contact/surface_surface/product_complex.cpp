@@ -38,7 +38,7 @@ FeatureNodes nodes_in(const std::array<NodeId, 3>& nodes) noexcept {
   return {nodes, count_of(nodes)};
 }
 
-geometry::Core core_of(const FeatureNodes& nodes, geometry::Positions x) {
+geometry::Core core_at(const FeatureNodes& nodes, geometry::Positions x) {
   geometry::Core core;
   for (const NodeId node : nodes) core.x[core.count++] = x[geometry::index_of(node)];
   return core;
@@ -105,7 +105,7 @@ void ProductComplex::take(std::span<const Candidate> same, std::span<const CellP
       const CellPair& pair = pairs[cell.pair];
       place = {*pair.a, *pair.b, *pair.cores};
     } else {
-      const geometry::Core a = core_of(place.a, x), b = core_of(place.b, x);
+      const geometry::Core a = core_at(place.a, x), b = core_at(place.b, x);
       place.cores = geometry::at_last_touch(a, b, geometry::core_proximity(a, b));
       if (!(place.cores.signed_distance < range)) return;
     }

@@ -164,8 +164,8 @@ void StructureBonds::list_pressed_pairs(const StructurePatches& patches) {
 }
 
 /// Gives what a term does at its nearest points to the pairs of cells that have these: what is
-/// taken off for a side goes to the cell that is nearest there, and leaves nothing of it. Of a pass
-/// between two cells each has an equal part.
+/// taken off for a side goes to the cell that is nearest there, and leaves nothing of it. Of a
+/// saddle between two cells each has an equal part.
 void StructureBonds::add_near_push(const StructurePatches& patches, const PairTerm& term) {
   const PairTerms& terms = patches.terms();
   const NormalSpring& spring = patches.spring_of(term);
@@ -238,8 +238,8 @@ double StructureBonds::hand_over(StructureBond& bond, StructurePatches& patches,
 
 /// @param sides  how the bond's points go with those of the patch
 /// @returns the energy (J) that the patch gains
-double StructureBonds::hand_to_patch(const StructureBond& bond, Sides sides,
-                                     StructurePatch& patch, const StructurePatches& patches) const {
+double StructureBonds::hand_to_patch(const StructureBond& bond, Sides sides, StructurePatch& patch,
+                                     const StructurePatches& patches) const {
   const double sign = sides.sign();
   const double before = patches.history_energy(patch);
   AnyLaw::accumulate_history(patch.memory.history,

@@ -23,7 +23,7 @@ namespace plekton::contact {
 /// The elastic force, and an attraction of bodies that touch, is the gradient of one energy, a sum
 /// over pairs of features (surface_surface/nearest.hpp, surface_surface/extended.hpp) with the
 /// weights of product_features.hpp: one contact for every part of the contact region, also where it
-/// closes a ring (surface_surface/pair_terms.hpp), and one more for every diameter of length or
+/// closes a cycle (surface_surface/pair_terms.hpp), and one more for every diameter of length or
 /// square diameter of area on which bodies run side by side, but never less than PatchEnergy says.
 /// Friction and all else is decided once per patch, a part of the region that hangs together: its
 /// spring is as stiff as the contacts it counts, it acts where the elastic force acts, and it

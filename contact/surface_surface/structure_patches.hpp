@@ -53,7 +53,7 @@ struct TermPlaces {
 ///
 /// What hangs together is one contact at least, so that the terms of a patch add up to what any of
 /// its pairs of cells stores by itself, or to more. They come to less, also below nothing, so that
-/// bodies would draw each other in, where rings of what lies flat are not given back (PairTerms),
+/// bodies would draw each other in, where cycles of what lies flat are not given back (PairTerms),
 /// as of a plate with holes that are finer than it is thick, and where bodies have gone into each
 /// other by more than their thickness. So a patch stores kLeastOfOne of what the pair does that
 /// stores most, and pushes as much, where that is more than the sum: of both, as functions of

@@ -35,8 +35,8 @@ class TouchingPatches {
     return place;
   }
 
-  /// @param sides  how the cells of one go with those of the other. The lower root stays one, so the
-  ///               result does not depend on the order of calls.
+  /// @param sides  how the cells of one go with those of the other. The lower root stays one, so
+  ///               the result does not depend on the order of calls.
   void unite(std::uint32_t a, std::uint32_t b, Sides sides) {
     const Place place_a = find(a);
     const Place place_b = find(b);

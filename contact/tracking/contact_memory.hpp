@@ -26,9 +26,9 @@ typename Law::History carried_history(const ContactMemory<Law>& memory, const Ve
 }
 
 /// How body b moved relative to body a in the step that ends their contact.
-struct LastWay {
-  Vec3 way = Vec3::Zero();     ///< m, at the contact point
-  Vec3 turned = Vec3::Zero();  ///< rad
+struct LastDisplacement {
+  Vec3 translation = Vec3::Zero();  ///< m, at the contact point
+  Vec3 rotation = Vec3::Zero();     ///< rad
 };
 
 /// The energy (J) that is lost with a contact: what its history still held, less what its last force
@@ -36,17 +36,17 @@ struct LastWay {
 /// force does too, but has a potential, which is 0 then.
 template <ContactLaw Law>
 double loss_at_end(const typename Law::Parameters& parameters, const ContactMemory<Law>& memory,
-                   const LastWay& last) noexcept {
+                   const LastDisplacement& last) noexcept {
   const Vec3 force = other_force<Law>(parameters, memory.normal, memory.history);
   const Vec3 moment = moment_of<Law>(memory.history, memory.normal);
   return Law::history_energy(parameters, memory.history) -
-         0.5 * (force.dot(last.way) + moment.dot(last.turned));
+         0.5 * (force.dot(last.translation) + moment.dot(last.rotation));
 }
 
 /// Ends a contact. @returns the energy (J) that is lost
 template <ContactLaw Law>
 double forget(const typename Law::Parameters& parameters, ContactMemory<Law>& memory,
-              const LastWay& last) noexcept {
+              const LastDisplacement& last) noexcept {
   if (memory.is_new()) return 0.0;
   const double lost = loss_at_end<Law>(parameters, memory, last);
   memory = {};

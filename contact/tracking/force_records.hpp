@@ -23,7 +23,7 @@ struct SurfaceForce {
   Vec3 torque_a;          ///< N m, on a
   Vec3 torque_b;          ///< N m, on b, shared by its nodes by weight
   double elastic;         ///< N, part of the force along the line of a and the core point, on b;
-                          ///< negative for a pass
+                          ///< negative for a saddle
   std::uint32_t pair;     ///< of sphere and structure
   std::uint32_t contact;  ///< among those of the worker
 

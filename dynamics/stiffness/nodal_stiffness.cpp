@@ -65,11 +65,11 @@ std::array<SpringEnd, 4> surface_ends(NodeId ball, const geometry::CorePoint& co
 
 TurningSpring turning_spring(NodeId ball, const geometry::CorePoint& core, const Vec3& normal,
                              const SurfaceTurning& turning) noexcept {
-  const bool is_pass = turning.force < 0.0;
-  const bool turns =
-      turning.distance > 0.0 && turning.force != 0.0 && (is_pass || !turning.gradients.isZero(0.0));
+  const bool is_saddle = turning.force < 0.0;
+  const bool turns = turning.distance > 0.0 && turning.force != 0.0 &&
+                     (is_saddle || !turning.gradients.isZero(0.0));
   if (!turns) return {};
-  const double stiffness = (is_pass ? 2.0 : 1.0) * std::abs(turning.force) / turning.distance;
+  const double stiffness = (is_saddle ? 2.0 : 1.0) * std::abs(turning.force) / turning.distance;
   TurningSpring spring{{normal, stiffness, stiffness, 0.0, 0.0},
                        surface_ends(ball, core, {normal, 0.0, 0.0, 0.0, 0.0})};
   for (std::size_t i = 0; i < 3; ++i) {

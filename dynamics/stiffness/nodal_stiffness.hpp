@@ -30,14 +30,14 @@ struct CriticalStep {
   Eigen::Matrix<double, 6, 1> mode = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-// Dashpots push with the speed of half a step before. Beside springs K such a damping C is stable in
-// a leapfrog if dt²/4 (K + 2 C / dt) <= M: of one mode dt <= 2 / omega (sqrt(1 + xi²) - xi) with
+// Dashpots push with the speed of half a step before. Beside springs K such a damping C is stable
+// in a leapfrog if dt²/4 (K + 2 C / dt) <= M: of one mode dt <= 2 / omega (sqrt(1 + xi²) - xi) with
 // xi = c / (2 m omega) (Belytschko, Liu & Moran, Nonlinear Finite Elements, 2000, section 6.2). So
 // where a heavy ball meets a light node, it is the mass of the node that counts, and where many
 // dashpots hold a node, their sum.
 
-/// 1/s, times a damping (N s/m) the spring (N/m) as which it counts in a step (s); 0 for an infinite
-/// one.
+/// 1/s, times a damping (N s/m) the spring (N/m) as which it counts in a step (s); 0 for an
+/// infinite one.
 inline double dashpot_rate(double dt) noexcept {
   return 2.0 / dt;
 }
@@ -48,7 +48,8 @@ inline double dashpot_rate(double dt) noexcept {
 /// have less of C, so that f itself is not too long if it is longer; and in shorter ones K + 2 C /
 /// dt is at most tried / dt times as much, so that f² / tried is not.
 /// @param tried  s, > 0
-/// @param found  s, the critical step, or a part of it, with dashpots as they count in the one tried
+/// @param found  s, the critical step, or a part of it, with dashpots as they count in the one
+///           tried
 inline double stable_with_dashpots(double tried, double found) noexcept {
   return found < tried ? found * (found / tried) : found;
 }
@@ -99,7 +100,7 @@ void put_on_bodies(std::span<SpringEnd> ends, const RigidNodes* rigid) noexcept;
 ///
 /// P the projection across the normal and T that on the bar or facet: the nearest point slides. The
 /// energy has -F times it. What pushes (F > 0) is stiffer by F / d |d theta + T u|², which is as
-/// much as the contact itself on bars that are short beside d; a pass (F < 0) by |F| / d |P u|².
+/// much as the contact itself on bars that are short beside d; a saddle (F < 0) by |F| / d |P u|².
 struct SurfaceTurning {
   double force = 0.0;             ///< N, F
   double distance = 0.0;          ///< m, d
@@ -117,7 +118,7 @@ std::array<SpringEnd, 4> surface_ends(NodeId ball, const geometry::CorePoint& co
 
 /// What resists the turning of a surface, as one spring that is as stiff in any direction as it can
 /// be in one: F / d with ends d grad(w_i) n - w_i T on the nodes, no longer than the root of the
-/// sum of both squares, and T on the ball. A pass has the weights alone, but either sign of its
+/// sum of both squares, and T on the ball. A saddle has the weights alone, but either sign of its
 /// curvature counts, so that its stiffness is twice |F| / d.
 struct TurningSpring {
   ContactStiffness contact;  ///< its stiffness is 0 if nothing turns
@@ -166,8 +167,8 @@ IsotropicStiffness from_all_sides(double normal, double tangential, double radiu
 /// coupling of translation and rotation. Holding nodes only lowers omega. (The diagonal of K alone
 /// would not do: it misses that shear moves and turns a node at once.)
 ///
-/// A rigid body is one node more: what holds nodes that follow it holds its reference node, with the
-/// levers of now and the whole tensor of inertia.
+/// A rigid body is one node more: what holds nodes that follow it holds its reference node, with
+/// the levers of now and the whole tensor of inertia.
 ///
 /// K is that of the springs as they are now: contacts that begin later, or press harder under a
 /// nonlinear law, change it. So leave a margin, and ask again as a simulation goes on.

@@ -6,7 +6,7 @@
 namespace plekton::dynamics {
 namespace {
 
-/// A weight is that of one contact, or of a pass between two, but for the rounding of a force.
+/// A weight is that of one contact, or of a saddle between two, but for the rounding of a force.
 bool is_one(double weight) noexcept {
   constexpr double kRounding = 1e-6;
   return std::abs(std::abs(weight) - 1.0) <= kRounding;

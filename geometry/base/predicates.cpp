@@ -21,17 +21,17 @@ using Exact = CGAL::Mpzf;
 
 /// The polynomials, for any ring of numbers.
 template <class Number>
-struct Difference {
+struct DifferenceOf {
   std::array<Number, 3> v;
-  Difference(const Vec3& to, const Vec3& from)
+  DifferenceOf(const Vec3& to, const Vec3& from)
       : v{Number(to[0]) - Number(from[0]), Number(to[1]) - Number(from[1]),
           Number(to[2]) - Number(from[2])} {}
-  explicit Difference(const Arrow& arrow) : Difference(arrow.to, arrow.from) {}
+  explicit DifferenceOf(const Difference& of) : DifferenceOf(of.to, of.from) {}
 };
 
 /// Of two doubles that is one exact sum.
 template <>
-Difference<DoubleDouble>::Difference(const Vec3& to, const Vec3& from)
+DifferenceOf<DoubleDouble>::DifferenceOf(const Vec3& to, const Vec3& from)
     : v{DoubleDouble::difference(to[0], from[0]), DoubleDouble::difference(to[1], from[1]),
         DoubleDouble::difference(to[2], from[2])} {}
 
@@ -51,18 +51,19 @@ Triple<Number> cross(const Triple<Number>& u, const Triple<Number>& v) {
 
 template <class Number>
 Number past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) {
-  return dot(Difference<Number>(b, a).v, Difference<Number>(p, a).v);
+  return dot(DifferenceOf<Number>(b, a).v, DifferenceOf<Number>(p, a).v);
 }
 
 template <class Number>
-Number product_of_crosses(const Arrow& u, const Arrow& v, const Arrow& w) {
-  const Difference<Number> along(u);
-  return dot(cross(along.v, Difference<Number>(v).v), cross(along.v, Difference<Number>(w).v));
+Number product_of_crosses(const Difference& u, const Difference& v, const Difference& w) {
+  const DifferenceOf<Number> along(u);
+  return dot(cross(along.v, DifferenceOf<Number>(v).v), cross(along.v, DifferenceOf<Number>(w).v));
 }
 
 template <class Number>
-Number volume(const Arrow& u, const Arrow& v, const Arrow& w) {
-  return dot(cross(Difference<Number>(u).v, Difference<Number>(v).v), Difference<Number>(w).v);
+Number volume(const Difference& u, const Difference& v, const Difference& w) {
+  return dot(cross(DifferenceOf<Number>(u).v, DifferenceOf<Number>(v).v),
+             DifferenceOf<Number>(w).v);
 }
 
 /// Sign of an interval, or 2 if it holds both signs.
@@ -135,14 +136,14 @@ Vec3 quotient(const Triple<Exact>& numerator, const Exact& denominator) {
 /// The part of w across u in twice the precision, if that is enough. With cross products within 10
 /// u² and 20 u² of the magnitudes of their terms, at most 2 and 4 times the lengths, the error is
 /// below 2^-99 |w|, which is 2^-43 of a result of 2^-56 |w|.
-std::optional<Vec3> part_across(const Arrow& w, const Arrow& u) noexcept {
+std::optional<Vec3> part_across(const Difference& w, const Difference& u) noexcept {
   constexpr double kSmallest = 1e-60;
   const double length_w = w.rounded().cwiseAbs().maxCoeff();
   const double length_u = u.rounded().cwiseAbs().maxCoeff();
   if (!(std::min(length_w, length_u) > kSmallest) || std::fegetround() != FE_TONEAREST)
     return std::nullopt;
-  const Triple<DoubleDouble> along = Difference<DoubleDouble>(u).v;
-  const Triple<DoubleDouble> part = cross(cross(along, Difference<DoubleDouble>(w).v), along);
+  const Triple<DoubleDouble> along = DifferenceOf<DoubleDouble>(u).v;
+  const Triple<DoubleDouble> part = cross(cross(along, DifferenceOf<DoubleDouble>(w).v), along);
   const double square = dot(along, along).high();
   const Vec3 result(part[0].high() / square, part[1].high() / square, part[2].high() / square);
   if (!(result.cwiseAbs().maxCoeff() > 0x1p-56 * length_w)) return std::nullopt;
@@ -163,7 +164,8 @@ int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p, double magnit
   return sign_of(past_vertex<Exact>(a, b, p));
 }
 
-int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept {
+int crosses_exact(const Difference& u, const Difference& v, const Difference& w,
+                  double magnitude) noexcept {
   const int quick =
       double_double_sign(magnitude, [&] { return product_of_crosses<DoubleDouble>(u, v, w); });
   if (quick != 2) return quick;
@@ -173,7 +175,8 @@ int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitu
   return sign_of(product_of_crosses<Exact>(u, v, w));
 }
 
-int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept {
+int volume_exact(const Difference& u, const Difference& v, const Difference& w,
+                 double magnitude) noexcept {
   const int quick = double_double_sign(magnitude, [&] { return volume<DoubleDouble>(u, v, w); });
   if (quick != 2) return quick;
   const int sign = interval_sign([&] { return volume<Interval>(u, v, w); });
@@ -184,24 +187,25 @@ int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitud
 
 }  // namespace detail
 
-Vec3 exact_part_across(const Arrow& w, const Arrow& u) noexcept {
+Vec3 exact_part_across(const Difference& w, const Difference& u) noexcept {
   if (const auto part = part_across(w, u)) return *part;
-  const Triple<Exact> along = Difference<Exact>(u).v;
-  const Triple<Exact> part = cross(cross(along, Difference<Exact>(w).v), along);
+  const Triple<Exact> along = DifferenceOf<Exact>(u).v;
+  const Triple<Exact> part = cross(cross(along, DifferenceOf<Exact>(w).v), along);
   return quotient(part, dot(along, along));
 }
 
-Vec3 exact_part_along_normal(const Arrow& w, const Arrow& u, const Arrow& v) noexcept {
-  const Triple<Exact> normal = cross(Difference<Exact>(u).v, Difference<Exact>(v).v);
-  const Exact height = dot(normal, Difference<Exact>(w).v);
+Vec3 exact_part_along_normal(const Difference& w, const Difference& u,
+                             const Difference& v) noexcept {
+  const Triple<Exact> normal = cross(DifferenceOf<Exact>(u).v, DifferenceOf<Exact>(v).v);
+  const Exact height = dot(normal, DifferenceOf<Exact>(w).v);
   return quotient({Exact(normal[0] * height), Exact(normal[1] * height), Exact(normal[2] * height)},
                   dot(normal, normal));
 }
 
-Vec3 exact_shares(const Arrow& w, const Arrow& u, const Arrow& v) noexcept {
-  const Triple<Exact> along_u = Difference<Exact>(u).v;
-  const Triple<Exact> along_v = Difference<Exact>(v).v;
-  const Triple<Exact> to_point = Difference<Exact>(w).v;
+Vec3 exact_shares(const Difference& w, const Difference& u, const Difference& v) noexcept {
+  const Triple<Exact> along_u = DifferenceOf<Exact>(u).v;
+  const Triple<Exact> along_v = DifferenceOf<Exact>(v).v;
+  const Triple<Exact> to_point = DifferenceOf<Exact>(w).v;
   const Triple<Exact> normal = cross(along_u, along_v);
   const Exact of_u = dot(cross(to_point, along_v), normal);
   const Exact of_v = dot(cross(along_u, to_point), normal);
@@ -209,7 +213,7 @@ Vec3 exact_shares(const Arrow& w, const Arrow& u, const Arrow& v) noexcept {
   return quotient({Exact(square - of_u - of_v), of_u, of_v}, square);
 }
 
-double exact_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+double exact_volume(const Difference& u, const Difference& v, const Difference& w) noexcept {
   return CGAL::to_double(volume<Exact>(u, v, w));
 }
 

@@ -25,7 +25,7 @@ struct SignCounters {
 SignCounters& sign_counters() noexcept;
 
 /// The difference of two positions, not yet rounded.
-struct Arrow {
+struct Difference {
   const Vec3& from;
   const Vec3& to;
 
@@ -36,8 +36,10 @@ namespace detail {
 
 /// @param magnitude  the sum of the magnitudes of all terms, rounded
 int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p, double magnitude) noexcept;
-int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept;
-int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept;
+int crosses_exact(const Difference& u, const Difference& v, const Difference& w,
+                  double magnitude) noexcept;
+int volume_exact(const Difference& u, const Difference& v, const Difference& w,
+                 double magnitude) noexcept;
 
 /// Half an ulp of 1.
 constexpr double kRoundoff = 0x1p-53;
@@ -68,7 +70,7 @@ inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcep
 /// component of a cross product of rounded differences has error at most 4 roundoff times the sum
 /// of its two products' magnitudes, the product of two such 9, the sum of three 11 to first order,
 /// and 22 in a directed rounding mode; 24 covers the higher orders.
-inline int sign_of_crosses(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+inline int sign_of_crosses(const Difference& u, const Difference& v, const Difference& w) noexcept {
   const Vec3 along = u.rounded();
   const Vec3 left = v.rounded();
   const Vec3 right = w.rounded();
@@ -94,7 +96,7 @@ inline int sign_of_crosses(const Arrow& u, const Arrow& v, const Arrow& w) noexc
 /// Zero if the three lie in one plane. Error: a component of the cross product as above 4 roundoff,
 /// its product with a rounded difference 6, the sum of three 8 to first order and 16 in a directed
 /// rounding mode; 18 covers the higher orders.
-inline int sign_of_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+inline int sign_of_volume(const Difference& u, const Difference& v, const Difference& w) noexcept {
   const Vec3 first = u.rounded();
   const Vec3 second = v.rounded();
   const Vec3 third = w.rounded();
@@ -119,15 +121,16 @@ inline int sign_of_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexce
 /// within 2^-42 of the length.
 ///
 /// The part of w perpendicular to u, which has a length (m).
-Vec3 exact_part_across(const Arrow& w, const Arrow& u) noexcept;
+Vec3 exact_part_across(const Difference& w, const Difference& u) noexcept;
 /// The part of w along the common perpendicular of u and v, which are not parallel (m).
-Vec3 exact_part_along_normal(const Arrow& w, const Arrow& u, const Arrow& v) noexcept;
+Vec3 exact_part_along_normal(const Difference& w, const Difference& u,
+                             const Difference& v) noexcept;
 /// Shares of the start, the end of u and the end of v in the foot of w's end on the plane that u
 /// and v, which are not parallel, span from their common start with w. They add up to 1.
-Vec3 exact_shares(const Arrow& w, const Arrow& u, const Arrow& v) noexcept;
+Vec3 exact_shares(const Difference& w, const Difference& u, const Difference& v) noexcept;
 
 /// det(u, v, w) (m³).
-double exact_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept;
+double exact_volume(const Difference& u, const Difference& v, const Difference& w) noexcept;
 
 /// Sign of ((b - a) x (o - a)).((b - a) x (p - a)): +1 if, seen along the edge ab, p lies less than
 /// 90 degrees off the half-plane from the edge towards the opposite corner o. Zero at 90 degrees,

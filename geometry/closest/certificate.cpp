@@ -80,8 +80,8 @@ Verdict corner_face(Corners a, unsigned corner, Corners b) {
       sign_inside_edge(b[2], b[0], b[1], p) <= 0) {
     return Verdict::refuted;
   }
-  const Arrow u{b[0], b[1]};
-  const Arrow v{b[0], b[2]};
+  const Difference u{b[0], b[1]};
+  const Difference v{b[0], b[2]};
   const int above = sign_of_volume(u, v, {b[0], p});
   if (above == 0) return Verdict::touching;
   Conditions conditions;
@@ -103,8 +103,8 @@ Verdict side_side(Corners a, Corners b, WitnessFeatures witness_features) {
   const Vec3& b0 = b[first_of(witness_features.b)];
   const Vec3& b1 = b[last_of(witness_features.b)];
   if (!ends_inside(a0, a1, b0, b1) || !ends_inside(b0, b1, a0, a1)) return Verdict::refuted;
-  const Arrow u{a0, a1};
-  const Arrow v{b0, b1};
+  const Difference u{a0, a1};
+  const Difference v{b0, b1};
   const int above = sign_of_volume(u, v, {a0, b0});
   if (above == 0) return Verdict::touching;
   Conditions conditions;
@@ -138,8 +138,8 @@ Verdict certify(Corners a, Corners b, WitnessFeatures witness_features) noexcept
 bool crosses(Corners segment, unsigned side, Corners triangle) noexcept {
   const Vec3& from = segment[first_of(side)];
   const Vec3& to = segment[last_of(side)];
-  const Arrow u{triangle[0], triangle[1]};
-  const Arrow v{triangle[0], triangle[2]};
+  const Difference u{triangle[0], triangle[1]};
+  const Difference v{triangle[0], triangle[2]};
   if (sign_of_volume(u, v, {triangle[0], from}) * sign_of_volume(u, v, {triangle[0], to}) >= 0)
     return false;
   int turn = 0;

@@ -67,8 +67,8 @@ bool has_rivals(Corners x, unsigned feature) {
   for (std::size_t k = 0; k < x.size(); ++k) {
     if (k == first || k == last) continue;
     if (first == last && x[k] == x[first]) return true;
-    const Arrow along{x[first], x[last]};
-    const Arrow other{x[first], x[k]};
+    const Difference along{x[first], x[last]};
+    const Difference other{x[first], x[k]};
     if (first != last && sign_of_crosses(along, other, other) == 0) return true;
   }
   return false;

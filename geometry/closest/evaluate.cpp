@@ -155,8 +155,8 @@ Points at_feet(Corners a, Corners b, const Decision& decision) {
 Points crossing(Corners a, unsigned side, Corners b) {
   const Vec3& from = a[first_of(side)];
   const Vec3& to = a[last_of(side)];
-  const Arrow u{b[0], b[1]};
-  const Arrow v{b[0], b[2]};
+  const Difference u{b[0], b[1]};
+  const Difference v{b[0], b[2]};
   const double before = std::abs(exact_volume(u, v, {b[0], from}));
   const double behind = std::abs(exact_volume(u, v, {b[0], to}));
   Vec3 weights;
@@ -190,9 +190,9 @@ Vec3 equal_weights(unsigned corners) {
 Points of_vanishing_features(Corners a, Corners b, WitnessFeatures witness_features) {
   const int count_a = std::popcount(witness_features.a);
   const int count_b = std::popcount(witness_features.b);
-  const Arrow w{a[first_of(witness_features.a)], b[first_of(witness_features.b)]};
-  const Arrow u{w.from, a[last_of(witness_features.a)]};
-  const Arrow v{w.to, b[last_of(witness_features.b)]};
+  const Difference w{a[first_of(witness_features.a)], b[first_of(witness_features.b)]};
+  const Difference u{w.from, a[last_of(witness_features.a)]};
+  const Difference v{w.to, b[last_of(witness_features.b)]};
   Vec3 separation = w.rounded();
   if (count_a + count_b == 3) separation = exact_part_across(w, count_a == 2 ? u : v);
   if (count_a == 2 && count_b == 2) separation = exact_part_along_normal(w, u, v);

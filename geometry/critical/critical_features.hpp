@@ -23,7 +23,7 @@
 /// coefficient = 1 - chi(descending link), and the sum of all coefficients is the Euler number of
 /// the surface, for every point, as long as facets have an area and edges a length: the self-test
 /// of the signs. A feature without descending directions is a minimum of the distance; one whose
-/// link has several pieces (branches) is a pass between as many basins. Source: Morse theory of
+/// link has several pieces (branches) is a saddle between as many basins. Source: Morse theory of
 /// distance functions (Edelsbrunner & Harer, Computational Topology, 2010, VI); feasible regions of
 /// contact: Chen et al., Offset Geometric Contact (2025).
 namespace plekton::geometry {
@@ -34,7 +34,7 @@ struct DescendingLink {
   int branches;     ///< connected pieces of the link: 0 at a minimum, -1 without a foot point
 };
 
-/// A feature with a foot point of the query point, that is a minimum, a pass or a top of the
+/// A feature with a foot point of the query point, that is a minimum, a saddle or a maximum of the
 /// distance.
 struct CriticalFeature {
   CorePoint core;   ///< the foot point
@@ -44,7 +44,7 @@ struct CriticalFeature {
   int branches;
 
   bool is_minimum() const noexcept { return branches == 0; }
-  bool is_pass() const noexcept { return branches >= 2; }
+  bool is_saddle() const noexcept { return branches >= 2; }
 };
 
 /// Finds critical features; keeps its working space, so that a warm query does not allocate. One

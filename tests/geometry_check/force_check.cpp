@@ -64,8 +64,7 @@ std::optional<Vec3> force_of_patches(const Touch& touch) {
   contact::PatchFinder patches(touch.surface);
   CriticalFeatureFinder critical(touch.surface);
   const auto total = test::total_contact(patches, touch.centre, touch.range, cells, touch.x);
-  if (test::has_rings_or_hollows(critical, touch.centre, touch.range, cells, touch.x,
-                                 total.patches))
+  if (test::has_cycles_or_voids(critical, touch.centre, touch.range, cells, touch.x, total.patches))
     return std::nullopt;
   return total.force;
 }

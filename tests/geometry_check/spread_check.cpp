@@ -160,7 +160,7 @@ double largest_jump(const SpreadTouch& touch, const Surface& surface, double dee
   int tops = 0;
   for (const CriticalFeature& feature :
        finder.find(touch.centre, kRange + deepest, test::all_cells(surface), touch.complex.x))
-    tops += !feature.is_minimum() && !feature.is_pass();
+    tops += !feature.is_minimum() && !feature.is_saddle();
   return tops < 2 ? 0.0 : 0.037 * 2.0 * deepest * tops;
 }
 

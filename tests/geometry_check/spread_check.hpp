@@ -37,7 +37,7 @@ std::optional<bool> has_gradient(const SpreadTouch& touch, const SpreadRule& rul
                                  test::Random& random);
 
 /// The energy is that of the deepest contact at least: of bars exactly, of facets but for 0.2 %
-/// (contact/counting/ring_weights.hpp).
+/// (contact/counting/cycle_weights.hpp).
 bool counts_one(const SpreadTouch& touch, const SpreadRule& rule);
 
 /// Where all that is in range lies before a plane through the ball's centre, the ball is pushed
@@ -48,7 +48,7 @@ bool is_pushed_away(const SpreadTouch& touch, const SpreadRule& rule);
 /// hundredth. Everywhere a step of 1e-3 of the overlap, the steepest thousandth of it and the
 /// steepest millionth change the force on the ball by no more than as many contacts as terms may
 /// stand for (force_check.hpp), and as wires turn (contact/counting/wrap.hpp); and by what it
-/// jumps where two tops tie (contact/counting/ring_weights.hpp).
+/// jumps where two tops tie (contact/counting/cycle_weights.hpp).
 bool follows(const SpreadTouch& touch, const SpreadRule& rule, test::Random& random);
 
 }  // namespace plekton::geometry_check

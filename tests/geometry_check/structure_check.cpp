@@ -151,7 +151,7 @@ std::optional<bool> count_pieces(const Structures& structures, const StructureRu
   constexpr double kFarther = 0.5 * kTilt * kTilt * kRange;
   const double lost = 3.0 * pieces.pairs * kFarther * std::sqrt(2.0 * pieces.energy);
   // A ring takes four pairs of cells. One that is left when another is filled may miss what it gave
-  // too much (contact/counting/ring_weights.hpp).
+  // too much (contact/counting/cycle_weights.hpp).
   const double missing = pieces.pairs < 4 ? 1e-9 : 0.064;
   return push.energy >= (1.0 - missing) * pieces.energy - lost;
 }

@@ -40,11 +40,11 @@ class Threshold:
 
 THRESHOLDS = (
     Threshold("contact/counting/wrap.hpp", "kTurn", 0.1, ("press", "drape")),
-    Threshold("contact/counting/ring_weights.cpp", "kSharpness", 12, ("press", "drape")),
+    Threshold("contact/counting/cycle_weights.cpp", "kSharpness", 12, ("press", "drape")),
     Threshold("contact/surface_surface/tilt_share.hpp", "kLargestTilt", 3e-4, ("stack", "drape")),
     # A cosine: half and twice the angle.
     Threshold("contact/surface_surface/facing_facets.hpp", "kCosineOfCrossing", 0.9, ("stack", "drape"), "0.974679", "0.62"),
-    Threshold("contact/surface_surface/pair_terms.hpp", "kMostRings", 64.0, ("stack", "drape")),
+    Threshold("contact/surface_surface/pair_terms.hpp", "kMostCycles", 64.0, ("stack", "drape")),
     Threshold("contact/surface_surface/point_share.hpp", "kDepthOfCrossing", 2.0, ("stack", "drape")),
     # Twice would give point contacts, for which both are the same, a kink.
     Threshold("contact/surface_surface/structure_patches.hpp", "kLeastOfOne", 0.5, ("stack", "drape"), doubled="0.9"),

@@ -165,14 +165,14 @@ inline TotalContact total_contact(PatchFinder& finder, const Vec3& centre, doubl
 
 /// Whether what is in range has rings, filled or not, or hollows: more passes than it takes to join
 /// the minima to the patches, or coefficients that count more than patches.
-inline bool has_rings_or_hollows(CriticalFeatureFinder& finder, const Vec3& centre, double range,
-                                 std::span<const CellId> cells, Positions x, int patches) {
+inline bool has_cycles_or_voids(CriticalFeatureFinder& finder, const Vec3& centre, double range,
+                                std::span<const CellId> cells, Positions x, int patches) {
   int joins = 0;
   int minima = 0;
   int sum = 0;
   for (const CriticalFeature& feature : finder.find(centre, range, cells, x)) {
     if (feature.is_minimum()) ++minima;
-    if (feature.is_pass()) joins += feature.branches - 1;
+    if (feature.is_saddle()) joins += feature.branches - 1;
     sum += feature.coefficient;
   }
   return joins != minima - patches || sum != patches;

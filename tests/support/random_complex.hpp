@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/counting/ring_basis.hpp"
+#include "contact/counting/cycle_basis.hpp"
 #include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"
 

@@ -113,7 +113,7 @@ TEST(S05Rim, CarriesAHollowSphereAsASphere) {
   }
 }
 
-// A ring of up to four equal saddles gives back up to 6.4 % of a contact more (ring_weights.hpp).
+// A ring of up to four equal saddles gives back up to 6.4 % of a contact more (cycle_weights.hpp).
 TEST(S05Rim, NeverCarriesLessThanThePiecesOfTheRegionOfContact) {
   const Body plate = plate_with_hole_of(kCorners, kRim, 4.0);
   for (const double turn : {0.1, 0.5}) {

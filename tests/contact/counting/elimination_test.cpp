@@ -63,7 +63,7 @@ TEST(Elimination, LeavesDropsWhoseCurrentsHaveNoSources) {
 }
 
 TEST(Elimination, FindsTheSmallDropsOfGoodConductorsToTheLastDigit) {
-  // A drop of 1 along the first link of a ring: the current is 1 over the sum of the resistances.
+  // A drop of 1 along the first link of a cycle: the current is 1 over the sum of the resistances.
   const std::vector<Link> links{{1, 0}, {2, 1}, {3, 2}, {3, 0}};
   for (const double good : {1e12, 1e40, 1e90}) {
     const std::vector<double> conductances{1.0, good, 2.0, 1e3 * good};

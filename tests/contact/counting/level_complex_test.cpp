@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/counting/level_complex.hpp"
 
-#include "contact/counting/ring_weights.hpp"
+#include "contact/counting/cycle_weights.hpp"
 #include "contact/sphere_surface/near_complex.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
@@ -14,9 +14,9 @@ namespace {
 std::vector<std::array<double, 2>> weights_of(const LevelComplex& complex, double range) {
   std::vector<double> energies;
   for (const double d : complex.distances()) energies.push_back(0.5 * (range - d) * (range - d));
-  RingWeights rings;
+  CycleWeights cycles;
   std::vector<std::array<double, 2>> weights(energies.size(), {0.0, 0.0});
-  for (const RingWeights::Share& of : rings.find(complex, range, energies))
+  for (const CycleWeights::Share& of : cycles.find(complex, range, energies))
     weights[of.vertex] = {of.weight, of.slope};
   return weights;
 }

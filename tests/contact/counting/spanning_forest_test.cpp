@@ -21,7 +21,7 @@ std::vector<std::uint32_t> way_up(const SpanningForest& forest, std::uint32_t ve
 }
 
 /// The links of the tree between the ends of a link; of none if they are in different trees.
-std::vector<std::uint32_t> ring_of(const SpanningForest& forest, const Link& link) {
+std::vector<std::uint32_t> cycle_of(const SpanningForest& forest, const Link& link) {
   std::vector<std::uint32_t> a = way_up(forest, link.a), b = way_up(forest, link.b);
   while (!a.empty() && !b.empty() && a.back() == b.back()) {
     a.pop_back();
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> ring_of(const SpanningForest& forest, const Link& lin
   return a;
 }
 
-TEST(SpanningForest, LeavesOutOfEachRingALinkThatResistsAtLeastHalfAsMuchAsTheOthers) {
+TEST(SpanningForest, LeavesOutOfEachCycleALinkThatResistsAtLeastHalfAsMuchAsTheOthers) {
   Random random(1);
   SpanningForest forest;
   std::size_t left_out = 0;
@@ -44,7 +44,7 @@ TEST(SpanningForest, LeavesOutOfEachRingALinkThatResistsAtLeastHalfAsMuchAsTheOt
 
     ASSERT_EQ(forest.downwards().size(), n);
     for (const std::uint32_t closing : forest.closing_links()) {
-      for (const std::uint32_t link : ring_of(forest, links[closing])) {
+      for (const std::uint32_t link : cycle_of(forest, links[closing])) {
         ASSERT_NE(link, closing);
         ASSERT_LE(links[link].resistance, 2.0 * links[closing].resistance);
       }

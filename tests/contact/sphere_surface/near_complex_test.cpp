@@ -84,7 +84,7 @@ TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
     NearComplex near;
     near.build(surface, point, 2.0, cells, complex.x);
     CriticalFeatureFinder critical(surface);
-    RingBasis rings;
+    CycleBasis rings;
     rings.build(static_cast<std::uint32_t>(near.vertices().size()), near.levels().links(),
                 near.levels().fillings());
     for (int k = 0; k < 20; ++k) {

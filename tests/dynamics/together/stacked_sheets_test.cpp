@@ -87,7 +87,7 @@ Fall fall(double part) {
   return found;
 }
 
-// It stays above the lower sheet. The scene of 1 m is in tests/apps/run/defects_test.cpp.
+// It stays above the lower sheet. The scene of 1 m is in tests/apps/run/together/defects_test.cpp.
 TEST(StackedSheets, BounceWithinTheErrorOfATouch) {
   for (const double part : {1.0, 0.5, 0.25}) {
     const Fall found = fall(part);

@@ -63,7 +63,7 @@ TEST(DescendingLink, OfAnEdgeCountsTheFacetsThatFallAwayFromIt) {
   // cos 90 degrees is rounded to 6e-17: concave, and the exact signs see it.
   EXPECT_THAT(link_of(test::book({90, -90}), kSpine, point), Pair(-1, 2));
   EXPECT_THAT(link_of(test::book({30, -120}), kSpine, point), Pair(0, 1));     // beside it
-  EXPECT_THAT(link_of(test::book({30, -30}), kSpine, point), Pair(-1, 2));     // concave: a pass
+  EXPECT_THAT(link_of(test::book({30, -30}), kSpine, point), Pair(-1, 2));     // concave: a saddle
   EXPECT_THAT(link_of(test::book({60, 0, -60}), kSpine, point), Pair(-2, 3));  // non-manifold
   EXPECT_THAT(link_of(test::book({60, 0, -60, 150}), kSpine, point), Pair(-2, 3));
   EXPECT_THAT(link_of(test::book({}), kCentre, point), Pair(1, 0));
@@ -103,7 +103,7 @@ TEST(DescendingLink, OfANodeJoinsFallingEdgesByFacets) {
   EXPECT_THAT(link_of(umbrella(5, 1, 1), kCentre, above), Pair(-3, 4));
   EXPECT_THAT(link_of(umbrella(5, 1, 4), kCentre, above), Pair(0, 1));  // an open fan
   EXPECT_THAT(link_of(umbrella(5, 1, 5), kCentre, above),
-              Pair(1, 1));  // the bottom of a pit: a top of the distance
+              Pair(1, 1));  // the bottom of a pit: a maximum of the distance
   EXPECT_THAT(link_of(test::bow_tie(), kCentre, Vec3(0, 0, 9)),
               Pair(-1, 2));  // the second facet and the cylinder
   EXPECT_THAT(link_of(test::bow_tie(), kCentre, Vec3(1, 0, 0)), Pair(0, 1));
@@ -127,12 +127,12 @@ TEST(DescendingLink, OfANodeMayHaveSeveralPiecesAndCoefficientZero) {
 
 TEST(CriticalFeature, KnowsMinimaAndPasses) {
   const CriticalFeature minimum{test::core_point(NodeId{0}), Vec3::UnitX(), 1.0, 1, 0};
-  const CriticalFeature pass{test::core_point(NodeId{0}), Vec3::UnitX(), 1.0, -1, 2};
-  const CriticalFeature top{test::core_point(NodeId{0}), Vec3::UnitX(), 1.0, 1, 1};
+  const CriticalFeature saddle{test::core_point(NodeId{0}), Vec3::UnitX(), 1.0, -1, 2};
+  const CriticalFeature maximum{test::core_point(NodeId{0}), Vec3::UnitX(), 1.0, 1, 1};
 
-  EXPECT_TRUE(minimum.is_minimum() && !minimum.is_pass());
-  EXPECT_TRUE(!pass.is_minimum() && pass.is_pass());
-  EXPECT_FALSE(top.is_minimum() || top.is_pass());
+  EXPECT_TRUE(minimum.is_minimum() && !minimum.is_saddle());
+  EXPECT_TRUE(!saddle.is_minimum() && saddle.is_saddle());
+  EXPECT_FALSE(maximum.is_minimum() || maximum.is_saddle());
 }
 
 /// Distance of a closed feature (m).
@@ -146,7 +146,7 @@ double exact_distance(const Surface& surface, Feature feature, const Vec3& point
   return static_cast<double>(test::exact_foot(point, std::array{at(0), at(1), at(2)}).distance());
 }
 
-/// Minima, passes and tops of a whole complex by link(), with their distances.
+/// Minima, saddles and maxima of a whole complex by link(), with their distances.
 std::map<Feature, std::pair<DescendingLink, double>> critical_features(const Complex& complex,
                                                                        const Surface& surface,
                                                                        const Vec3& point) {

@@ -130,9 +130,9 @@ class DefectsOfChosenSteps : public testing::TestWithParam<const char*> {};
 
 // 6.4 to 18 % were seen: nodes that fall on a plane together; a wire that springs apart, whose
 // speed shortened the step and let it grow again in each of its swings; what begins in each other;
-// a wire that rattles in a plate which it went through; faces of a box that went through each other,
-// or folded into one plane, and drew each other in (46 and 36 %); what glue without strength was
-// said to give as it parted; ties that push and have no direction yet; ways out that
+// a wire that rattles in a plate which it went through; faces of a box that went through each
+// other, or folded into one plane, and drew each other in (46 and 36 %); what glue without strength
+// was said to give as it parted; ties that push and have no direction yet; ways out that
 // turn. A tie as long as rounding is no reason for a short step.
 TEST_P(DefectsOfChosenSteps, EndWithTheirEnergyClosedToASixteenth) {
   const Defect defect(GetParam(), {});
@@ -168,8 +168,8 @@ INSTANTIATE_TEST_SUITE_P(All, DefectsOfFlatFalls,
                          testing::Values("flat_plates", "flat_plate_on_plane"),
                          test::name_of_parameter);
 
-// Each pair of a bar with a facet had a dashpot and a spring as if it were one contact, whatever its
-// part of the length: bars rebounded at 0.32 to 0.91.
+// Each pair of a bar with a facet had a dashpot and a spring as if it were one contact, whatever
+// its part of the length: bars rebounded at 0.32 to 0.91.
 TEST(Defects, FlatBarsReboundAlikeHoweverTheyAndThePlateAreCut) {
   for (const std::string divisions : {"1", "16"}) {
     for (const std::string cells : {"[1, 1]", "[7, 7]"}) {
@@ -224,8 +224,8 @@ void PrintTo(const Stacked& of, std::ostream* out) {
 class StackedSheets : public testing::TestWithParam<Stacked> {};
 
 // Down by 1 mm, and up again. What was asked of the closure is 0.1 %; what the step at which they
-// touch can be off by is (omega dt)² / 4 (tests/dynamics/stacked_sheets_test.cpp), 5 % at the chosen
-// step. tests/validation/README.md has what is seen.
+// touch can be off by is (omega dt)² / 4 (tests/dynamics/together/stacked_sheets_test.cpp), 5 % at
+// the chosen step. tests/validation/README.md has what is seen.
 TEST_P(StackedSheets, BounceWithinTheErrorOfATouch) {
   const Stacked& of = GetParam();
   std::vector<std::string> settings = of.settings;

@@ -39,7 +39,8 @@ void expect_balanced(const Balance& balance) {
 TEST(Momentum, BalancesBetweenBalls) {
   Random random(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const std::vector<SphereBody> balls{{NodeId{0}, 0.5, MaterialId{0}}, {NodeId{1}, 0.3, MaterialId{0}}};
+    const std::vector<SphereBody> balls{{NodeId{0}, 0.5, MaterialId{0}},
+                                        {NodeId{1}, 0.3, MaterialId{0}}};
     const std::vector<geometry::IndexPair> pairs{{0, 1}};
     SphereContacts contacts;
     geometry::ThreadPool pool;
@@ -139,7 +140,7 @@ TEST(ElasticForce, IsTheGradientOfTheEnergyWhereNoRingCloses) {
     CriticalFeatureFinder critical(ball.surface());
     const int patches = static_cast<int>(ball.contacts().touching());
     if (patches == 0 ||
-        has_rings_or_hollows(critical, place, ball.range(), cells, ball.x(), patches))
+        has_cycles_or_voids(critical, place, ball.range(), cells, ball.x(), patches))
       continue;
     several_terms += critical.find(place, ball.range(), cells, ball.x()).size() > 2;
     const auto forces = ball.forces().force;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_flows.hpp"
+#include "contact/counting/cycle_flows.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/moving_scene.hpp"
@@ -11,9 +11,9 @@
 namespace plekton::test::allocation_test {
 namespace {
 
+using contact::CycleBasis;
+using contact::CycleFlows;
 using contact::Link;
-using contact::RingBasis;
-using contact::RingFlows;
 
 TEST(Allocation, IsCountedAlsoWhereEigenAsksForIt) {
 #if !PLEKTON_COUNTS_MALLOC
@@ -75,11 +75,11 @@ TEST(Allocation, DoesNotHappenWhenWarmRingsShareWhatTheyGiveBack) {
   std::vector<double> resistances;
   for (std::size_t i = 0; i < ladders.back().size(); ++i)
     resistances.push_back(1.0 + 0.1 * static_cast<double>(i));
-  RingFlows rings;
+  CycleFlows rings;
   const auto find = [&](const std::vector<Link>& links) {
     const std::uint32_t count = links.back().a + 1;
     rings.build(count, links, {});
-    rings.find({count, RingBasis::kNone}, RingBasis::kNone,
+    rings.find({count, CycleBasis::kNone}, CycleBasis::kNone,
                std::span(resistances).first(links.size()));
     const auto values = std::span(resistances).first(links.size());
     rings.shares(values);

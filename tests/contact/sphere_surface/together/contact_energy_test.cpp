@@ -66,8 +66,8 @@ class StructurePair {
   bool has_rings() {
     CriticalFeatureFinder critical(surface_);
     const auto patches = finder_.find(centre_, range_, cells_, x_);
-    return has_rings_or_hollows(critical, centre_, range_, cells_, x_,
-                                static_cast<int>(patches.size()));
+    return has_cycles_or_voids(critical, centre_, range_, cells_, x_,
+                               static_cast<int>(patches.size()));
   }
   std::size_t term_count() {
     std::size_t count = 0;

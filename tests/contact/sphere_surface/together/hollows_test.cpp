@@ -10,12 +10,12 @@ namespace plekton::test::hollows_test {
 namespace {
 
 /// What passes from one top to another where two tie, in contacts of the depth of the tops: of a
-/// ring of two passes at most this for each direction (ring_weights.hpp). Inside a closed shell all
-/// tops are about equally far, in all directions.
+/// ring of two passes at most this for each direction (cycle_weights.hpp). Inside a closed shell
+/// all tops are about equally far, in all directions.
 constexpr double kHandOverInside = 0.055;
 
 /// Holes begin at a mean over their rings, not where the shallowest pass does: of the energy of a
-/// ring of two passes at most this (ring_weights.hpp).
+/// ring of two passes at most this (cycle_weights.hpp).
 constexpr double kMeanOfHoles = 0.04;
 
 /// How fast the force changes, by distance: all passes of a shell are nearly on one level, and turn

@@ -77,7 +77,7 @@ struct Comparison {
     const double widest = nearest / 0.7;
     if (random.coin()) {
       for (const CriticalFeature& feature : critical.find(centre, widest, cells, x)) {
-        if (!feature.is_pass()) continue;
+        if (!feature.is_saddle()) continue;
         return std::min(widest,
                         feature.distance * (1.0 + std::pow(10.0, random.uniform(-9.0, -0.5))));
       }
@@ -94,11 +94,11 @@ struct Comparison {
     // Each term of the reference carries a few roundings of the range, and the terms are a few
     // hundred.
     const bool is_shared =
-        has_rings_or_hollows(critical, centre, range, cells, complex.x, total.patches);
+        has_cycles_or_voids(critical, centre, range, cells, complex.x, total.patches);
     const double wrap = reference_wrap_energy(surface, complex.x, centre, range, contact::kTurn);
     if (is_shared) {
       // Holes begin at a mean over their rings, not where the shallowest pass does: of a ring of
-      // two passes by at most 2.4 % of the energy, and of bars never too late (ring_weights.hpp).
+      // two passes by at most 2.4 % of the energy, and of bars never too late (cycle_weights.hpp).
       ASSERT_NEAR(total.energy - wrap, expected.energy, 0.04 * expected.energy);
       if (complex.facets.empty()) {
         ASSERT_GE(total.energy - wrap, expected.energy - 1e-8 * range * range);
@@ -124,7 +124,7 @@ struct Comparison {
                               std::span<const CellId> cells, Positions x) {
     const auto found = critical.find(centre, range, cells, x);
     return std::any_of(found.begin(), found.end(),
-                       [](const CriticalFeature& f) { return f.is_pass(); });
+                       [](const CriticalFeature& f) { return f.is_saddle(); });
   }
 };
 

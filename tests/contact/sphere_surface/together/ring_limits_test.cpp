@@ -145,7 +145,7 @@ TEST(RingsOfAFineNet, AreOneContactAtLeastAndLittleMoreForEachRing) {
       const auto pieces =
           reference_contact(centre, kRange, nodes, complex.x, [](double o) { return o; });
       // Each of up to 240 rings is 6.4 % of a contact at its shallowest pass too much at most, as
-      // one of four equal passes is (ring_weights.hpp).
+      // one of four equal passes is (cycle_weights.hpp).
       const double most = 0.064 * static_cast<double>(meshes_in(complex, centre, kRange));
       EXPECT_GE(total.energy, pieces.energy * (1.0 - 1e-12)) << meshes << ", " << overlap;
       EXPECT_LE(total.energy, pieces.energy + most * 0.5 * overlap * overlap)

@@ -40,8 +40,9 @@ double error_of_forces(StructurePairUnder<Law>& structure_pair, const Body& b, R
   return std::min(std::abs(difference(1e-6) - slope), std::abs(difference(1e-7) - slope)) / scale;
 }
 
-// All around a mesh that lies flat the places are at one distance, and no rounding of their energies
-// may become a force of its own there: the moment is none, as at a tilt that tells them apart.
+// All around a mesh that lies flat the places are at one distance, and no rounding of their
+// energies may become a force of its own there: the moment is none, as at a tilt that tells them
+// apart.
 TEST(StructureRings, OfNetsThatLieFlatPushWithoutAMoment) {
   const Body plate = sheet(2, 2, 3.0, 3.0);
   for (const Body& net : {square_net_of(1, 0.6), square_net_of(3, 0.3)}) {
@@ -121,7 +122,7 @@ TEST(StructureRings, ChangeTheForceByNoMoreThanTheSlopeOfAPassDoes) {
 }
 
 // Bars that cross at 34 degrees touch at points. Nets give back up to a twelfth too much for every
-// mesh in range (ring_weights.hpp), and what bends of the wires keep besides (wrap.hpp).
+// mesh in range (cycle_weights.hpp), and what bends of the wires keep besides (wrap.hpp).
 TEST(StructureRings, OfBarsOnBarsNeverPushLessThanPieces) {
   Random random(5);
   const Body net = square_net_of(3, 0.06);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/counting/cycle_basis.hpp"
 #include "contact/counting/elimination.hpp"
-#include "contact/counting/ring_basis.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace plekton::contact {
 
-/// How the holes of a complex of vertices, links and filled rings are shared over its links.
+/// How the holes of a complex of vertices, links and filled cycles are shared over its links.
 ///
-/// The flows of a part are the currents without sources that are orthogonal to every filled ring,
+/// The flows of a part are the currents without sources that are orthogonal to every filled cycle,
 /// when a current i in a link weighs resistance * i^2: as many, independent of each other, as there
 /// are holes. Those that a step takes away, when it shuts some of the holes, are orthogonal to what
 /// it leaves. The share of a link is what resistance * i^2 adds up to over an orthonormal set of
 /// them. So the shares add up to the number of holes that are shut; a hole is shared over the links
 /// around it in proportion to how much of its current passes through each, and how much that link
 /// resists. They depend on nothing but resistances and connections: not on numbers, nor on which
-/// rings stand for the holes.
+/// cycles stand for the holes.
 /// Source: Eckmann, Harmonische Funktionen und Randwertaufgaben in einem Komplex, Comment. Math.
 /// Helv. 17 (1945); without fillings the shares are those of the transfer-current theorem, Burton &
 /// Pemantle, Annals of Probability 21 (1993): how likely a random spanning forest leaves a link
-/// out. So nets take a time that is almost linear in their links (elimination.hpp); where rings are
-/// filled it grows with the third power of the holes.
-class RingFlows {
+/// out. So nets take a time that is almost linear in their links (elimination.hpp); where cycles
+/// are filled it grows with the third power of the holes.
+class CycleFlows {
  public:
   /// Keeps its working space, so that a warm call does not allocate.
   /// @param links     a > b (the upper vertex is a), ascending by a
@@ -34,10 +34,10 @@ class RingFlows {
   void build(std::uint32_t vertex_count, std::span<const Link> links,
              std::span<const Filling> fillings);
 
-  const RingBasis& basis() const noexcept { return basis_; }
+  const CycleBasis& basis() const noexcept { return basis_; }
 
   /// Finds the flows of a part that are gone when fillings with an upper vertex in
-  /// [part.filling_count, end) shut holes; with an end of RingBasis::kNone all flows of the part.
+  /// [part.filling_count, end) shut holes; with an end of CycleBasis::kNone all flows of the part.
   /// @param resistances  of the links of the part, which come first; > 0, in any unit
   /// @returns            their number
   std::size_t find(const ComplexPart& part, std::uint32_t end, std::span<const double> resistances);
@@ -69,7 +69,7 @@ class RingFlows {
 
   std::vector<Link> all_links_;  ///< of build()
   std::uint32_t vertex_count_ = 0;
-  RingBasis basis_;
+  CycleBasis basis_;
   Elimination elimination_;
   bool is_planned_ = false;  ///< elimination_, for the links of the last build()
   bool has_fillings_ = false;
@@ -86,7 +86,7 @@ class RingFlows {
   std::vector<double> flows_;     ///< flow x link, orthonormal
   std::vector<double> shares_, slopes_;
   // Working space.
-  std::vector<double> shut_;         ///< hole x ring
+  std::vector<double> shut_;         ///< hole x cycle
   std::vector<double> differences_;  ///< hole x join
   std::vector<double> rest_;         ///< by link
   std::vector<double> row_;          ///< by hole

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_flows.hpp"
+#include "contact/counting/cycle_flows.hpp"
 
 #include "tests/support/random_complex.hpp"
 
@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace plekton::contact::ring_flows_test {
+namespace plekton::contact::cycle_flows_test {
 namespace {
 
 using namespace test;
@@ -19,11 +19,11 @@ std::vector<double> resistances_of(std::span<const Link> links) {
 }
 
 /// Of all flows of a complex, by link.
-std::vector<double> shares_of(RingFlows& flows, const std::vector<Link>& links,
+std::vector<double> shares_of(CycleFlows& flows, const std::vector<Link>& links,
                               const std::vector<Filling>& fillings) {
   const std::uint32_t count = links.back().a + 1;
   flows.build(count, links, fillings);
-  if (flows.find({count, RingBasis::kNone}, RingBasis::kNone, resistances_of(links)) == 0)
+  if (flows.find({count, CycleBasis::kNone}, CycleBasis::kNone, resistances_of(links)) == 0)
     return std::vector<double>(links.size(), 0.0);
   const auto shares = flows.shares(std::vector<double>(links.size(), 0.0));
   return {shares.begin(), shares.end()};
@@ -31,26 +31,26 @@ std::vector<double> shares_of(RingFlows& flows, const std::vector<Link>& links,
 
 /// One filled part after another of random complexes: what each step takes away.
 void for_each_step(int trials, double power,
-                   const std::function<void(RingFlows&, std::uint32_t, std::span<const Link>,
+                   const std::function<void(CycleFlows&, std::uint32_t, std::span<const Link>,
                                             std::span<const Filling>, std::span<const Filling>,
                                             std::size_t)>& visit) {
   Random random(1);
-  RingFlows flows;
+  CycleFlows flows;
   for (int trial = 0; trial < trials; ++trial) {
     const auto n = static_cast<std::uint32_t>(random.integer(2, 9));
     const auto links = random_links(random, n, random.integer(1, 22), power);
     auto fillings = random_fillings(random, links, random.integer(0, 20));
-    // Rings that are filled as they close give nothing to see: most get a higher top.
+    // Cycles that are filled as they close give nothing to see: most get a higher maximum.
     for (Filling& filling : fillings)
       filling.upper = std::min(n - 1, filling.upper + static_cast<std::uint32_t>(random.index(4)));
     std::sort(fillings.begin(), fillings.end(),
               [](const Filling& i, const Filling& k) { return i.upper < k.upper; });
     flows.build(n, links, fillings);
-    for (const std::uint32_t top : flows.basis().fillers()) {
-      const auto part = links_below(links, top);
-      const std::size_t gone = flows.find({top, top}, top + 1, resistances_of(part));
-      visit(flows, top, part, fillings_below(fillings, top), fillings_below(fillings, top + 1),
-            gone);
+    for (const std::uint32_t maximum : flows.basis().fillers()) {
+      const auto part = links_below(links, maximum);
+      const std::size_t gone = flows.find({maximum, maximum}, maximum + 1, resistances_of(part));
+      visit(flows, maximum, part, fillings_below(fillings, maximum),
+            fillings_below(fillings, maximum + 1), gone);
     }
   }
 }
@@ -60,14 +60,15 @@ double squared_row(const Eigen::MatrixXd& matrix, Eigen::Index row) {
   return matrix.cols() == 0 ? 0.0 : matrix.row(row).squaredNorm();
 }
 
-TEST(RingFlows, HaveTheSharesOfTheProjectionOnTheFlowsThatAStepTakesAway) {
+TEST(CycleFlows, HaveTheSharesOfTheProjectionOnTheFlowsThatAStepTakesAway) {
   int seen = 0;
   for_each_step(
       300, 2.0,
-      [&](RingFlows& flows, std::uint32_t top, std::span<const Link> part,
+      [&](CycleFlows& flows, std::uint32_t maximum, std::span<const Link> part,
           std::span<const Filling> before, std::span<const Filling> after, std::size_t gone) {
-        // Of the new fillings those that lie in the part alone fill rings of it; the others close
-        // with the links of the top. What they fill together is what the number of holes falls by.
+        // Of the new fillings those that lie in the part alone fill cycles of it; the others close
+        // with the links of the maximum. What they fill together is what the number of holes falls
+        // by.
         std::vector<Filling> inside(before.begin(), before.end());
         for (const Filling& filling : after.subspan(before.size())) {
           const bool is_inside =
@@ -75,8 +76,8 @@ TEST(RingFlows, HaveTheSharesOfTheProjectionOnTheFlowsThatAStepTakesAway) {
                           [&](std::uint32_t link) { return link < part.size(); });
           if (is_inside) inside.push_back(filling);
         }
-        const Eigen::MatrixXd all = flows_of(top, part, before);
-        const Eigen::MatrixXd left = flows_of(top, part, inside);
+        const Eigen::MatrixXd all = flows_of(maximum, part, before);
+        const Eigen::MatrixXd left = flows_of(maximum, part, inside);
         if (static_cast<std::size_t>(all.cols() - left.cols()) != gone) return;
         const auto shares = flows.shares(std::vector<double>(part.size(), 0.0));
         ASSERT_EQ(shares.size(), part.size());
@@ -89,9 +90,9 @@ TEST(RingFlows, HaveTheSharesOfTheProjectionOnTheFlowsThatAStepTakesAway) {
   EXPECT_GT(seen, 100);
 }
 
-TEST(RingFlows, HaveTheSharesOfTheProjectionOnAllFlowsOfAComplex) {
+TEST(CycleFlows, HaveTheSharesOfTheProjectionOnAllFlowsOfAComplex) {
   Random random(2);
-  RingFlows flows;
+  CycleFlows flows;
   for (int trial = 0; trial < 300; ++trial) {
     const auto n = static_cast<std::uint32_t>(random.integer(2, 9));
     const auto links = random_links(random, n, random.integer(1, 22), 2.0);
@@ -105,9 +106,9 @@ TEST(RingFlows, HaveTheSharesOfTheProjectionOnAllFlowsOfAComplex) {
   }
 }
 
-TEST(RingFlows, HaveSharesThatAddUpToTheHolesHoweverDifferentTheResistancesAre) {
+TEST(CycleFlows, HaveSharesThatAddUpToTheHolesHoweverDifferentTheResistancesAre) {
   Random random(3);
-  RingFlows flows;
+  CycleFlows flows;
   for (int trial = 0; trial < 200; ++trial) {
     const auto n = static_cast<std::uint32_t>(random.integer(2, 12));
     const auto links = random_links(random, n, random.integer(1, 40), 60.0);
@@ -120,21 +121,21 @@ TEST(RingFlows, HaveSharesThatAddUpToTheHolesHoweverDifferentTheResistancesAre) 
       ASSERT_LE(share, 1.0 + 1e-12);
       sum += share;
     }
-    ASSERT_NEAR(sum, static_cast<double>(flows.basis().hole_count({n, RingBasis::kNone})), 1e-11);
+    ASSERT_NEAR(sum, static_cast<double>(flows.basis().hole_count({n, CycleBasis::kNone})), 1e-11);
   }
 }
 
-TEST(RingFlows, AreSharedEvenlyOverASymmetricRing) {
+TEST(CycleFlows, AreSharedEvenlyOverASymmetricRing) {
   const std::vector<Link> links{{1, 0, 2.0}, {2, 0, 2.0}, {2, 1, 2.0}};
-  RingFlows flows;
+  CycleFlows flows;
 
   for (const double share : shares_of(flows, links, {})) EXPECT_DOUBLE_EQ(share, 1.0 / 3.0);
 }
 
-TEST(RingFlows, AreThoseOfParallelWaysHoweverLittleALinkBetweenThemResists) {
-  // A ring over 0, 1 and 2; a triangle that is filled is a second way from 2 to 1, over 3.
+TEST(CycleFlows, AreThoseOfParallelWaysHoweverLittleALinkBetweenThemResists) {
+  // A cycle over 0, 1 and 2; a triangle that is filled is a second way from 2 to 1, over 3.
   const std::vector<Filling> fillings{{3, {2, 3, 4, 0}, {1, -1, 1, 0}, 3}};
-  RingFlows flows;
+  CycleFlows flows;
   for (const double little : {1e-300, 1e-20, 1e-18, 1e-16, 1e-12, 1e-8, 1e-4, 1.0}) {
     const std::vector<Link> links{
         {1, 0, 1.0}, {2, 0, 2.0}, {2, 1, 3.0}, {3, 1, 3.0}, {3, 2, little}};
@@ -153,24 +154,24 @@ TEST(RingFlows, AreThoseOfParallelWaysHoweverLittleALinkBetweenThemResists) {
   }
 }
 
-TEST(RingFlows, GrowWithTheResistancesByTheirSlopes) {
+TEST(CycleFlows, GrowWithTheResistancesByTheirSlopes) {
   Random random(4);
   int seen = 0;
   for_each_step(300, 1.0,
-                [&](RingFlows& flows, std::uint32_t top, std::span<const Link> part,
+                [&](CycleFlows& flows, std::uint32_t maximum, std::span<const Link> part,
                     std::span<const Filling>, std::span<const Filling>, std::size_t gone) {
                   std::vector<double> values;
                   for (std::size_t i = 0; i < part.size(); ++i)
                     values.push_back(random.uniform(0.0, 1.0));
                   const auto sum = [&](const std::vector<double>& resistances) {
-                    flows.find({top, top}, top + 1, resistances);
+                    flows.find({maximum, maximum}, maximum + 1, resistances);
                     double total = 0.0;
                     const auto shares = flows.shares(values);
                     for (std::size_t i = 0; i < shares.size(); ++i) total += shares[i] * values[i];
                     return total;
                   };
                   const auto resistances = resistances_of(part);
-                  flows.find({top, top}, top + 1, resistances);
+                  flows.find({maximum, maximum}, maximum + 1, resistances);
                   const auto found = flows.slopes(values);
                   const std::vector<double> slopes(found.begin(), found.end());
                   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -199,16 +200,16 @@ std::vector<Link> random_graph(Random& random, bool is_net, double power) {
   return links;
 }
 
-TEST(RingFlows, AreTheSameOnGraphsAsBesideAFilledRing) {
+TEST(CycleFlows, AreTheSameOnGraphsAsBesideAFilledRing) {
   Random random(5);
-  RingFlows flows;
+  CycleFlows flows;
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Link> links = random_graph(random, trial % 2 == 0, 4.0);
     std::vector<double> values;
     for (std::size_t i = 0; i < links.size(); ++i) values.push_back(random.uniform(0.0, 1.0));
     const std::uint32_t n = links.back().a + 1;
     flows.build(n, links, {});
-    if (flows.find({n, RingBasis::kNone}, RingBasis::kNone, resistances_of(links)) == 0) continue;
+    if (flows.find({n, CycleBasis::kNone}, CycleBasis::kNone, resistances_of(links)) == 0) continue;
     const auto found = flows.shares(values);
     const std::vector<double> shares(found.begin(), found.end());
     const auto found_slopes = flows.slopes(values);
@@ -219,7 +220,7 @@ TEST(RingFlows, AreTheSameOnGraphsAsBesideAFilledRing) {
     values.insert(values.end(), 3, 0.5);
     const std::vector<Filling> fillings{{n + 2, {first, first + 2, first + 1}, {1, 1, -1}, 3}};
     flows.build(n + 3, links, fillings);
-    flows.find({n + 3, RingBasis::kNone}, RingBasis::kNone, resistances_of(links));
+    flows.find({n + 3, CycleBasis::kNone}, CycleBasis::kNone, resistances_of(links));
 
     const auto others = flows.shares(values);
     const auto other_slopes = flows.slopes(values);
@@ -230,15 +231,15 @@ TEST(RingFlows, AreTheSameOnGraphsAsBesideAFilledRing) {
   }
 }
 
-TEST(RingFlows, LeaveEveryBridgeAndKeepSmallSharesToTheirLastDigits) {
-  // Two rings of three links with a bridge between them; of the second one link resists little.
-  RingFlows flows;
+TEST(CycleFlows, LeaveEveryBridgeAndKeepSmallSharesToTheirLastDigits) {
+  // Two cycles of three links with a bridge between them; of the second one link resists little.
+  CycleFlows flows;
   for (const double little : {1e-200, 1e-20, 1e-3}) {
     const std::vector<Link> links{{1, 0, 1.0}, {2, 0, 1.0}, {2, 1, 1.0},   {3, 2, 5.0},
                                   {4, 3, 1.0}, {5, 3, 2.0}, {5, 4, little}};
     const std::vector<double> values{1.0, 2.0, 4.0, 3.0, 1.0, 2.0, 4.0};
     flows.build(6, links, {});
-    flows.find({6, RingBasis::kNone}, RingBasis::kNone, resistances_of(links));
+    flows.find({6, CycleBasis::kNone}, CycleBasis::kNone, resistances_of(links));
     const auto shares = flows.shares(values);
     EXPECT_EQ(shares[3], 0.0);
     EXPECT_DOUBLE_EQ(shares[6], little / (3.0 + little));
@@ -250,4 +251,4 @@ TEST(RingFlows, LeaveEveryBridgeAndKeepSmallSharesToTheirLastDigits) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::ring_flows_test
+}  // namespace plekton::contact::cycle_flows_test

@@ -16,15 +16,15 @@ namespace plekton::contact::structure {
 /// (geometry/critical/product_features.hpp): to 1 for each piece, less its holes. So where they
 /// add up to 1 over every part that hangs together, at every level, there are pieces alone. Voids
 /// count for 1 more, but a void that begins before a hole does is seen as well.
-class RingSearch {
+class CycleSearch {
  public:
-  /// Almost linear in the terms in range, but for their order by overlap; each part by itself. Keeps
-  /// its working space, so that a warm call does not allocate.
+  /// Almost linear in the terms in range, but for their order by overlap; each part by itself.
+  /// Keeps its working space, so that a warm call does not allocate.
   /// @param parts       of the terms
   /// @param are_new     whether terms or parts are others than those of the last call
   /// @param least_life  m: terms whose overlaps differ by no more are on one level. Rounding makes
   ///                    the order of features that stand at one place, and a hole that is there
-  ///                    over no more than rounding gives back nothing (RingWeights::kLeastLife)
+  ///                    over no more than rounding gives back nothing (CycleWeights::kLeastLife)
   /// @returns such parts, ascending
   std::span<const std::uint32_t> find(const TermsInRange& terms, const TermParts& parts,
                                       bool are_new, double least_life, geometry::ThreadPool& pool);

@@ -12,27 +12,27 @@
 
 namespace plekton::contact {
 
-/// A ring that a piece of surface fills: what goes along it can be pulled across, so it holds no
+/// A cycle that a piece of surface fills: what goes along it can be pulled across, so it holds no
 /// hole.
 struct Filling {
   std::uint32_t upper;  ///< its highest vertex
   std::array<std::uint32_t, 4> links;
-  std::array<std::int8_t, 4> signs;  ///< 1: the ring goes from a to b, -1: from b to a
+  std::array<std::int8_t, 4> signs;  ///< 1: the cycle goes from a to b, -1: from b to a
   std::uint8_t count;                ///< of links, at most 4
 };
 
-/// A part of a complex: vertices with the links between them, and the rings that are filled.
+/// A part of a complex: vertices with the links between them, and the cycles that are filled.
 struct ComplexPart {
   std::uint32_t vertex_count;   ///< of vertices, the first ones
-  std::uint32_t filling_count;  ///< rings are filled whose upper vertex is below this one
+  std::uint32_t filling_count;  ///< cycles are filled whose upper vertex is below this one
 };
 
-/// The open rings of a complex of vertices, links and filled rings, of every part of it.
+/// The open cycles of a complex of vertices, links and filled cycles, of every part of it.
 ///
-/// Each link that closes a ring opens a hole; each filling shuts the youngest hole that it is the
+/// Each link that closes a cycle opens a hole; each filling shuts the youngest hole that it is the
 /// first, with older ones, to close. So it is known once for all levels which holes are open.
 /// Source: persistence, Edelsbrunner & Harer, Computational Topology (2010), VII.
-class RingBasis {
+class CycleBasis {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
@@ -45,11 +45,11 @@ class RingBasis {
   /// Upper vertices of the fillings that shut a hole which was open at lower vertices; ascending.
   std::span<const std::uint32_t> fillers() const noexcept { return fillers_; }
 
-  /// Vertices that shut holes, and those whose fillings find none that is open and shut a hollow;
+  /// Vertices that shut holes, and those whose fillings find none that is open and shut a void;
   /// ascending.
-  std::span<const std::uint32_t> tops() const noexcept { return tops_; }
+  std::span<const std::uint32_t> maxima() const noexcept { return maxima_; }
 
-  /// By vertex: how many links go down from it, but for those that close a ring which is filled at
+  /// By vertex: how many links go down from it, but for those that close a cycle which is filled at
   /// once; 0 of a minimum. All but one of them join pieces or open holes.
   std::span<const std::uint32_t> branches() const noexcept { return branches_; }
 
@@ -71,22 +71,22 @@ class RingBasis {
   std::size_t shut_count(std::uint32_t first, std::uint32_t end) const noexcept;
 
   /// As many independent sets of drops along the links of a part as it has holes, row by row: sums
-  /// of drops round filled rings are 0. They are small whole numbers, on links that resist at least
-  /// half as much as any on the way round them, and 0 on the others. Of each row one of the links
-  /// that resist least, but for a factor of 2, is in no other row: so rows stay independent however
-  /// different the resistances are.
+  /// of drops round filled cycles are 0. They are small whole numbers, on links that resist at
+  /// least half as much as any on the way round them, and 0 on the others. Of each row one of the
+  /// links that resist least, but for a factor of 2, is in no other row: so rows stay independent
+  /// however different the resistances are.
   /// @param links  those of the part, with resistances > 0 (any unit)
   /// @param drops  row x link; hole_count(part) rows
-  /// @param shut   row x shut_count(part, end): the sums of these drops round the rings that are
+  /// @param shut   row x shut_count(part, end): the sums of these drops round the cycles that are
   ///               filled then
   void find_drops(const ComplexPart& part, std::uint32_t end, std::span<const Link> links,
                   std::span<double> drops, std::span<double> shut);
 
  private:
-  /// A link that closes a ring, and the filling that closes the ring, if any does.
+  /// A link that closes a cycle, and the filling that closes the cycle, if any does.
   struct Closing {
     std::uint32_t link;
-    std::uint32_t upper;      ///< vertex from which on the ring is there
+    std::uint32_t upper;      ///< vertex from which on the cycle is there
     std::uint32_t filled_at;  ///< upper vertex of that filling, or kNone
     std::uint32_t first;      ///< currents of the filling in this and older closing links, which
     std::uint32_t count;      ///< say all of them; this one is the last
@@ -117,7 +117,7 @@ class RingBasis {
   std::vector<Current> currents_;
   std::vector<double> row_;  ///< by closing
   std::vector<std::uint32_t> fillers_;
-  std::vector<std::uint32_t> tops_;
+  std::vector<std::uint32_t> maxima_;
   std::vector<std::uint32_t> branches_;
   // Working space of find_drops().
   SpanningForest forest_;          ///< of little resistance

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_weights.hpp"
+#include "contact/counting/cycle_weights.hpp"
 
 #include "contact/sphere_surface/near_complex.hpp"
 #include "tests/support/contact_surfaces.hpp"
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::test::ring_weights_test {
+namespace plekton::test::cycle_weights_test {
 namespace {
 
 constexpr double kRange = 1.0;
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> numbers_to(std::size_t count) {
   return numbers;
 }
 
-/// Without filled rings.
+/// Without filled cycles.
 LevelComplex graph(const std::vector<double>& distances, const Links& links) {
   LevelComplex complex;
   complex.start(distances, numbers_to(distances.size()));
@@ -61,12 +61,12 @@ struct Weights {
   std::vector<double> weights, slopes;  // by vertex
 };
 
-Weights weights_of(RingWeights& rings, const LevelComplex& complex,
+Weights weights_of(CycleWeights& cycles, const LevelComplex& complex,
                    const std::vector<double>& energies, double range = kRange) {
   Weights found{std::vector<double>(energies.size(), 0.0),
                 std::vector<double>(energies.size(), 0.0)};
   std::uint32_t next = 0;
-  for (const RingWeights::Share& share : rings.find(complex, range, energies)) {
+  for (const CycleWeights::Share& share : cycles.find(complex, range, energies)) {
     EXPECT_GE(share.vertex, next) << "nearest first, each once";
     EXPECT_TRUE(share.weight != 0.0 || share.slope != 0.0);
     next = share.vertex + 1;
@@ -76,24 +76,24 @@ Weights weights_of(RingWeights& rings, const LevelComplex& complex,
   return found;
 }
 
-/// What a link resists that goes down from one distance to another, with a top at a third.
-double resistance(double upper, double lower, double top) {
+/// What a link resists that goes down from one distance to another, with a maximum at a third.
+double resistance(double upper, double lower, double maximum) {
   const auto inverse = [&](double distance) {
-    const double overlap = kRange - distance, of_top = kRange - top;
-    return std::pow(overlap * overlap - of_top * of_top, -kSharpness);
+    const double overlap = kRange - distance, of_maximum = kRange - maximum;
+    return std::pow(overlap * overlap - of_maximum * of_maximum, -kSharpness);
   };
   return inverse(upper) - inverse(lower);
 }
 
-/// Weights of passes that stand on two minima each and close one ring: -1, and the share of their
-/// links in what the ring resists.
-std::vector<double> expected_passes(const std::vector<double>& minima,
-                                    const std::vector<double>& passes, double top) {
+/// Weights of saddles that stand on two minima each and close one cycle: -1, and the share of their
+/// links in what the cycle resists.
+std::vector<double> expected_saddles(const std::vector<double>& minima,
+                                     const std::vector<double>& saddles, double maximum) {
   std::vector<double> shares;
   double sum = 0.0;
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    shares.push_back(resistance(passes[k], minima[k], top) +
-                     resistance(passes[k], minima[(k + 1) % minima.size()], top));
+  for (std::size_t k = 0; k < saddles.size(); ++k) {
+    shares.push_back(resistance(saddles[k], minima[k], maximum) +
+                     resistance(saddles[k], minima[(k + 1) % minima.size()], maximum));
     sum += shares.back();
   }
   for (double& share : shares) share = share / sum - 1.0;
@@ -105,18 +105,18 @@ std::vector<double> joined(std::vector<double> first, const std::vector<double>&
   return first;
 }
 
-TEST(RingWeights, OfTwoPiecesOnOnePassAreThoseOfOneContact) {
-  RingWeights rings;
+TEST(CycleWeights, OfTwoPiecesOnOneSaddleAreThoseOfOneContact) {
+  CycleWeights cycles;
   const Weights found =
-      weights_of(rings, graph({0.1, 0.2, 0.5}, {{2, 0}, {2, 1}}), {3.0, 2.0, 1.0});
+      weights_of(cycles, graph({0.1, 0.2, 0.5}, {{2, 0}, {2, 1}}), {3.0, 2.0, 1.0});
 
   EXPECT_EQ(found.weights, (std::vector<double>{1.0, 1.0, -1.0}));
   EXPECT_EQ(found.slopes, (std::vector<double>{0.0, 0.0, 0.0}));
 }
 
-TEST(RingWeights, GiveAnOpenRingBackByWhatItsPassesResist) {
-  RingWeights rings;
-  for (const auto& [minima, passes] :
+TEST(CycleWeights, GiveAnOpenCycleBackByWhatItsSaddlesResist) {
+  CycleWeights cycles;
+  for (const auto& [minima, saddles] :
        {std::pair<std::vector<double>, std::vector<double>>{{0.1, 0.2}, {0.5, 0.52}},
         {{0.1, 0.2, 0.3}, {0.5, 0.5, 0.6}},
         {{0.0, 0.05, 0.1, 0.2}, {0.3, 0.32, 0.33, 0.9}}}) {
@@ -126,48 +126,48 @@ TEST(RingWeights, GiveAnOpenRingBackByWhatItsPassesResist) {
       links.push_back({count + k, k});
       links.push_back({count + k, (k + 1) % count});
     }
-    const std::vector<double> distances = joined(minima, passes);
+    const std::vector<double> distances = joined(minima, saddles);
 
-    const Weights found = weights_of(rings, graph(distances, links), distances);
+    const Weights found = weights_of(cycles, graph(distances, links), distances);
 
     // The hole lasts to the range, where nothing overlaps.
     const std::vector<double> expected =
-        joined(std::vector<double>(count, 1.0), expected_passes(minima, passes, kRange));
+        joined(std::vector<double>(count, 1.0), expected_saddles(minima, saddles, kRange));
     for (std::size_t i = 0; i < expected.size(); ++i)
       EXPECT_NEAR(found.weights[i], expected[i], 1e-12) << count << ", vertex " << i;
   }
 }
 
-TEST(RingWeights, GiveARingBackByTheOverlapsBeyondThatOfTheTopThatFillsIt) {
-  RingWeights rings;
+TEST(CycleWeights, GiveACycleBackByTheOverlapsBeyondThatOfTheMaximumThatFillsIt) {
+  CycleWeights cycles;
   const std::vector<double> cells{0.1, 0.15, 0.2}, sides{0.4, 0.45, 0.46};
-  for (const double top : {0.5, 0.7, 0.95}) {
-    const std::vector<double> distances = joined(joined(cells, sides), {top});
+  for (const double maximum : {0.5, 0.7, 0.95}) {
+    const std::vector<double> distances = joined(joined(cells, sides), {maximum});
 
-    const Weights found = weights_of(rings, fan(distances), std::vector<double>(7, 1.0));
+    const Weights found = weights_of(cycles, fan(distances), std::vector<double>(7, 1.0));
 
     const std::vector<double> expected =
-        joined(joined(std::vector<double>(3, 1.0), expected_passes(cells, sides, top)), {0.0});
+        joined(joined(std::vector<double>(3, 1.0), expected_saddles(cells, sides, maximum)), {0.0});
     for (std::size_t i = 0; i < expected.size(); ++i)
-      EXPECT_NEAR(found.weights[i], expected[i], 1e-12) << top << ", vertex " << i;
+      EXPECT_NEAR(found.weights[i], expected[i], 1e-12) << maximum << ", vertex " << i;
   }
 }
 
 /// J, of energies of contacts that do not change, at distances that do.
 template <class Build>
-double energy_at(RingWeights& rings, const Build& build, const std::vector<double>& distances,
+double energy_at(CycleWeights& cycles, const Build& build, const std::vector<double>& distances,
                  const std::vector<double>& energies) {
-  const Weights found = weights_of(rings, build(distances), energies);
+  const Weights found = weights_of(cycles, build(distances), energies);
   return std::inner_product(energies.begin(), energies.end(), found.weights.begin(), 0.0);
 }
 
 template <class Build>
 void expect_slopes_of_the_energy(const Build& build, const std::vector<double>& distances,
                                  Random& random) {
-  RingWeights rings;
+  CycleWeights cycles;
   std::vector<double> energies;
   for (std::size_t i = 0; i < distances.size(); ++i) energies.push_back(random.uniform(0.5, 1.5));
-  const Weights found = weights_of(rings, build(distances), energies);
+  const Weights found = weights_of(cycles, build(distances), energies);
   const double largest =
       std::abs(*std::max_element(found.slopes.begin(), found.slopes.end(),
                                  [](double p, double q) { return std::abs(p) < std::abs(q); }));
@@ -176,7 +176,7 @@ void expect_slopes_of_the_energy(const Build& build, const std::vector<double>& 
     const auto moved = [&](double overlap) {
       std::vector<double> other = distances;
       other[i] -= overlap;
-      return energy_at(rings, build, other, energies);
+      return energy_at(cycles, build, other, energies);
     };
     const double expected = (moved(kStep) - moved(-kStep)) / (2.0 * kStep);
     // By the square of the step times the third power of n over the least difference of overlaps
@@ -186,16 +186,16 @@ void expect_slopes_of_the_energy(const Build& build, const std::vector<double>& 
   }
 }
 
-TEST(RingWeights, HaveTheSlopesOfTheEnergyByTheOverlaps) {
+TEST(CycleWeights, HaveTheSlopesOfTheEnergyByTheOverlaps) {
   Random random(1);
   for (int trial = 0; trial < 30; ++trial) {
-    // Minima and passes between them at random, in steps that keep their order.
-    const int minima = random.integer(2, 6), passes = random.integer(2, 8);
+    // Minima and saddles between them at random, in steps that keep their order.
+    const int minima = random.integer(2, 6), saddles = random.integer(2, 8);
     std::vector<double> distances;
     Links links;
-    for (int i = 0; i < minima + passes; ++i)
+    for (int i = 0; i < minima + saddles; ++i)
       distances.push_back((i < minima ? 0.0 : 0.1) + 0.05 * i + random.uniform(0.0, 0.04));
-    for (int k = 0; k < passes; ++k) {
+    for (int k = 0; k < saddles; ++k) {
       const int first = random.integer(0, minima - 1);
       const int second = (first + random.integer(1, minima - 1)) % minima;
       for (const int minimum : {first, second})
@@ -212,9 +212,9 @@ TEST(RingWeights, HaveTheSlopesOfTheEnergyByTheOverlaps) {
   }
 }
 
-TEST(RingWeights, AddUpToThePiecesOfASurfaceInRange) {
+TEST(CycleWeights, AddUpToThePiecesOfASurfaceInRange) {
   Random random(2);
-  RingWeights rings;
+  CycleWeights cycles;
   int with_holes = 0, apart = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const std::array<Complex, 4> kinds{roughened(net(4), 1.0, 0.3, random),
@@ -228,19 +228,20 @@ TEST(RingWeights, AddUpToThePiecesOfASurfaceInRange) {
     near.build(surface, point, 1.3, all_cells(surface), complex.x);
     const LevelComplex& levels = near.levels();
     std::vector<std::uint32_t> piece = numbers_to(levels.distances().size());
-    for (std::size_t pass = 0; pass < piece.size(); ++pass)
+    for (std::size_t sweep = 0; sweep < piece.size(); ++sweep)
       for (const Link& link : levels.links())
         piece[link.a] = piece[link.b] = std::min(piece[link.a], piece[link.b]);
     std::size_t pieces = 0;
     for (std::uint32_t i = 0; i < piece.size(); ++i) pieces += piece[i] == i;
 
-    const Weights found = weights_of(rings, levels, std::vector<double>(piece.size(), 1.0), 1.3);
+    const Weights found = weights_of(cycles, levels, std::vector<double>(piece.size(), 1.0), 1.3);
 
     // Each hole gets back one contact.
     EXPECT_NEAR(std::accumulate(found.weights.begin(), found.weights.end(), 0.0),
                 static_cast<double>(pieces), 1e-9)
         << trial;
-    for (std::uint32_t i = 0; i < piece.size(); ++i) EXPECT_EQ(rings.root_of(i), piece[i]) << trial;
+    for (std::uint32_t i = 0; i < piece.size(); ++i)
+      EXPECT_EQ(cycles.root_of(i), piece[i]) << trial;
     with_holes += levels.links().size() + pieces > piece.size() + levels.fillings().size();
     apart += pieces > 1;
   }
@@ -248,20 +249,20 @@ TEST(RingWeights, AddUpToThePiecesOfASurfaceInRange) {
   EXPECT_GT(apart, 10);
 }
 
-TEST(RingWeights, DoNotDependOnTheUnitOfLength) {
-  RingWeights rings;
+TEST(CycleWeights, DoNotDependOnTheUnitOfLength) {
+  CycleWeights cycles;
   const std::vector<double> distances{0.1, 0.15, 0.2, 0.4, 0.45, 0.46, 0.7};
   const std::vector<double> energies{5.0, 4.0, 3.0, 2.0, 1.9, 1.8, 0.5};
-  const Weights expected = weights_of(rings, fan(distances), energies);
+  const Weights expected = weights_of(cycles, fan(distances), energies);
 
   for (const double unit : {0x1p-30, 0x1p40}) {  // powers of 2: not a bit is rounded otherwise
     std::vector<double> other = distances;
     for (double& distance : other) distance *= unit;
-    const Weights found = weights_of(rings, fan(other), energies, unit * kRange);
+    const Weights found = weights_of(cycles, fan(other), energies, unit * kRange);
     EXPECT_EQ(found.weights, expected.weights);
     for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(unit * found.slopes[i], expected.slopes[i]);
   }
 }
 
 }  // namespace
-}  // namespace plekton::test::ring_weights_test
+}  // namespace plekton::test::cycle_weights_test

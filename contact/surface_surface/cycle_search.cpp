@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/surface_surface/ring_search.hpp"
+#include "contact/surface_surface/cycle_search.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,8 +7,8 @@
 namespace plekton::contact::structure {
 namespace {
 
-/// A ring needs two pairs of cells that are joined twice: of a closed chain of four bars that folds
-/// onto itself, so that its opposite corners meet.
+/// A cycle needs two pairs of cells that are joined twice: of a closed chain of four bars that
+/// folds onto itself, so that its opposite corners meet.
 constexpr std::size_t kFewest = 4;
 
 /// By insertion, linear where few have moved, as long as that is not more work than a sort is.
@@ -27,9 +27,9 @@ void sort_mostly_sorted(std::span<Item> items, const Before& before) {
 
 }  // namespace
 
-std::span<const std::uint32_t> RingSearch::find(const TermsInRange& terms, const TermParts& parts,
-                                                bool are_new, double least_life,
-                                                geometry::ThreadPool& pool) {
+std::span<const std::uint32_t> CycleSearch::find(const TermsInRange& terms, const TermParts& parts,
+                                                 bool are_new, double least_life,
+                                                 geometry::ThreadPool& pool) {
   if (are_new) put_in_parts(terms, parts);
   root_.resize(parts.pair_count());
   sums_.resize(parts.pair_count());
@@ -49,7 +49,7 @@ std::span<const std::uint32_t> RingSearch::find(const TermsInRange& terms, const
 
 /// From one step to the next the order by overlap hardly changes: the terms of the last one come
 /// first, so that little is left to sort.
-void RingSearch::put_in_parts(const TermsInRange& terms, const TermParts& parts) {
+void CycleSearch::put_in_parts(const TermsInRange& terms, const TermParts& parts) {
   parts_of_terms_.resize(terms.all.size(), TermParts::kNone);
   next_.clear();
   for (std::size_t part = 0; part < parts.count(); ++part) {
@@ -70,8 +70,8 @@ void RingSearch::put_in_parts(const TermsInRange& terms, const TermParts& parts)
 
 /// @param levels   of one part; sorted here, deepest first
 /// @param changed  room for as many
-bool RingSearch::is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
-                         std::uint32_t* changed) {
+bool CycleSearch::is_more(const TermsInRange& terms, std::span<Level> levels, double least_life,
+                          std::uint32_t* changed) {
   for (Level& level : levels) {
     level.overlap = terms.all[level.term].overlap;
     if (!terms.all[level.term].is_of_cells) continue;
@@ -98,7 +98,7 @@ bool RingSearch::is_more(const TermsInRange& terms, std::span<Level> levels, dou
 }
 
 /// The pairs of cells that have a term hang together from now on. @returns the lowest of all these
-std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
+std::uint32_t CycleSearch::unite(std::span<const Holder> holders) noexcept {
   std::uint32_t part = part_at_level(holders.front().pair);
   for (const Holder& holder : holders.subspan(1)) {
     const std::uint32_t other = part_at_level(holder.pair);
@@ -116,7 +116,7 @@ std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
 }
 
 /// At a level. @param changed  since the last one
-bool RingSearch::are_pieces(std::span<const std::uint32_t> changed) const noexcept {
+bool CycleSearch::are_pieces(std::span<const std::uint32_t> changed) const noexcept {
   return std::ranges::all_of(
       changed, [this](std::uint32_t pair) { return sums_[part_at_level(pair)] == 1; });
 }

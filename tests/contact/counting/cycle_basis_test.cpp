@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_basis.hpp"
+#include "contact/counting/cycle_basis.hpp"
 
 #include "tests/support/random_complex.hpp"
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact::ring_basis_test {
+namespace plekton::contact::cycle_basis_test {
 namespace {
 
 using namespace test;
 
-/// Sum of drops round a filled ring.
+/// Sum of drops round a filled cycle.
 double sum_round(const Filling& filling, std::span<const double> drops) {
   double sum = 0.0;
   for (std::size_t k = 0; k < filling.count; ++k) sum += filling.signs[k] * drops[filling.links[k]];
   return sum;
 }
 
-TEST(RingBasis, HasADropForEveryHoleThatNoFilledRingSees) {
+TEST(CycleBasis, HasADropForEveryHoleThatNoFilledCycleSees) {
   Random random(1);
-  RingBasis basis;
+  CycleBasis basis;
   int seen = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const auto n = static_cast<std::uint32_t>(random.integer(2, 9));
@@ -45,11 +45,11 @@ TEST(RingBasis, HasADropForEveryHoleThatNoFilledRingSees) {
   EXPECT_GT(seen, 200);
 }
 
-TEST(RingBasis, HasNoHoleWhereTheOnlyRingIsFilled) {
+TEST(CycleBasis, HasNoHoleWhereTheOnlyCycleIsFilled) {
   const std::vector<Link> links{{1, 0}, {2, 0}, {2, 1}, {3, 2}};
   for (const std::uint32_t upper : {2U, 3U}) {
     const std::vector<Filling> fillings{{upper, {0, 1, 2, 0}, {1, -1, 1, 0}, 3}};
-    RingBasis basis;
+    CycleBasis basis;
     basis.build(4, links, fillings);
 
     EXPECT_EQ(basis.hole_count({4, 4}), 0U);
@@ -61,4 +61,4 @@ TEST(RingBasis, HasNoHoleWhereTheOnlyRingIsFilled) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::ring_basis_test
+}  // namespace plekton::contact::cycle_basis_test

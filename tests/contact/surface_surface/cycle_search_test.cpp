@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/surface_surface/ring_search.hpp"
+#include "contact/surface_surface/cycle_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace plekton::contact::structure::ring_search_test {
+namespace plekton::contact::structure::cycle_search_test {
 namespace {
 
 constexpr double kLeastLife = 1e-15;
@@ -38,7 +38,7 @@ struct Row {
   }
 };
 
-class RingSearchTest : public ::testing::Test {
+class CycleSearchTest : public ::testing::Test {
  protected:
   /// Lowest pair of each part that is found.
   std::vector<std::uint32_t> find(const Row& row, std::uint32_t pair_count, int threads = 1) {
@@ -56,47 +56,47 @@ class RingSearchTest : public ::testing::Test {
 
  private:
   TermParts parts_;
-  RingSearch search_;
+  CycleSearch search_;
 };
 using Lowest = std::vector<std::uint32_t>;
 
-TEST_F(RingSearchTest, FindsNothingWherePiecesMerge) {
+TEST_F(CycleSearchTest, FindsNothingWherePiecesMerge) {
   EXPECT_EQ(find(Row(0, 5, false), 5), Lowest());
 }
 
-TEST_F(RingSearchTest, FindsThePartThatClosesARing) {
+TEST_F(CycleSearchTest, FindsThePartThatClosesARing) {
   Row row(0, 5, false);
   row.grow(5, 4, true);
   EXPECT_EQ(find(row, 9), Lowest{5});
 }
 
 /// As of a closed chain of four bars whose opposite corners meet.
-TEST_F(RingSearchTest, FindsTheRingOfTwoPairsThatAreJoinedTwice) {
+TEST_F(CycleSearchTest, FindsTheCycleOfTwoPairsThatAreJoinedTwice) {
   Row row(0, 2, true);
   ASSERT_EQ(row.acting.size(), 4u);
   EXPECT_EQ(find(row, 2), Lowest{0});
 }
 
-TEST_F(RingSearchTest, FindsARingThatIsFilledAtAHigherLevel) {
+TEST_F(CycleSearchTest, FindsACycleThatIsFilledAtAHigherLevel) {
   Row row(0, 4, true);
   row.add(0.05, 1, {0, 1, 2, 3});
   EXPECT_EQ(find(row, 4), Lowest{0});
 }
 
-TEST_F(RingSearchTest, FindsARingThatIsFilledALittleHigher) {
+TEST_F(CycleSearchTest, FindsACycleThatIsFilledALittleHigher) {
   Row row(0, 4, true);
   row.add(0.1 - 1e-14, 1, {0, 1, 2, 3});
   EXPECT_EQ(find(row, 4), Lowest{0});
 }
 
-TEST_F(RingSearchTest, TakesWhatRoundingTearsApartAsOneLevel) {
+TEST_F(CycleSearchTest, TakesWhatRoundingTearsApartAsOneLevel) {
   Row row(0, 4, true);
   row.add(0.1 * (1.0 - 1e-15), 1, {0, 1, 2, 3});
   EXPECT_EQ(find(row, 4), Lowest());
 }
 
 /// So it is not on what else there is that the levels of a part depend.
-TEST_F(RingSearchTest, TakesNoLevelsOfAnotherPartForThoseOfThisOne) {
+TEST_F(CycleSearchTest, TakesNoLevelsOfAnotherPartForThoseOfThisOne) {
   Row row(0, 4, true);
   row.add(0.1 - 1.8e-15, 1, {0, 1, 2, 3});
   ASSERT_EQ(find(row, 6), Lowest{0});
@@ -105,7 +105,7 @@ TEST_F(RingSearchTest, TakesNoLevelsOfAnotherPartForThoseOfThisOne) {
   EXPECT_EQ(find(row, 6), Lowest{0});
 }
 
-TEST_F(RingSearchTest, FindsTheSameOfTermsInAnyOrderByAnyNumberOfThreads) {
+TEST_F(CycleSearchTest, FindsTheSameOfTermsInAnyOrderByAnyNumberOfThreads) {
   Row row(0, 6, true);
   for (std::uint32_t part = 1; part < 40; ++part) row.grow(6 * part, 6, part % 3 == 0);
   Lowest expected;
@@ -117,4 +117,4 @@ TEST_F(RingSearchTest, FindsTheSameOfTermsInAnyOrderByAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::structure::ring_search_test
+}  // namespace plekton::contact::structure::cycle_search_test

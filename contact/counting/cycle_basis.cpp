@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_basis.hpp"
+#include "contact/counting/cycle_basis.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,18 +7,18 @@
 
 namespace plekton::contact {
 
-void RingBasis::build(std::uint32_t vertex_count, std::span<const Link> links,
-                      std::span<const Filling> fillings) {
+void CycleBasis::build(std::uint32_t vertex_count, std::span<const Link> links,
+                       std::span<const Filling> fillings) {
   find_closings(vertex_count, links);
   currents_.clear();
   row_.assign(closings_.size(), 0.0);
-  tops_.clear();
+  maxima_.clear();
   for (const Filling& filling : fillings) reduce(filling);
   list_fillers();
   count_branches(vertex_count, links);
 }
 
-void RingBasis::find_closings(std::uint32_t vertex_count, std::span<const Link> links) {
+void CycleBasis::find_closings(std::uint32_t vertex_count, std::span<const Link> links) {
   root_.resize(vertex_count);
   std::iota(root_.begin(), root_.end(), 0U);
   const auto root_of = [this](std::uint32_t vertex) {
@@ -38,10 +38,10 @@ void RingBasis::find_closings(std::uint32_t vertex_count, std::span<const Link> 
   }
 }
 
-/// Finds the youngest ring that the filling, with older ones, is the first to close. (Pieces of a
+/// Finds the youngest cycle that the filling, with older ones, is the first to close. (Pieces of a
 /// surface in space have boundaries without torsion, so the currents stay -1, 0 and 1, or small
 /// whole numbers.)
-void RingBasis::reduce(const Filling& filling) {
+void CycleBasis::reduce(const Filling& filling) {
   std::size_t first = closings_.size();
   std::size_t end = 0;
   for (std::size_t k = 0; k < filling.count; ++k) {
@@ -69,42 +69,42 @@ void RingBasis::reduce(const Filling& filling) {
     for (const Current& entry : older) row_[entry.closing] -= factor * entry.current;
     first = std::min<std::size_t>(first, older.front().closing);
   }
-  tops_.push_back(filling.upper);
+  maxima_.push_back(filling.upper);
 }
 
-void RingBasis::list_fillers() {
+void CycleBasis::list_fillers() {
   fillers_.clear();
   for (const Closing& closing : closings_) {
     if (closing.filled_at != kNone && closing.filled_at != closing.upper)
       fillers_.push_back(closing.filled_at);
   }
-  tops_.insert(tops_.end(), fillers_.begin(), fillers_.end());
-  for (auto* const list : {&fillers_, &tops_}) {
+  maxima_.insert(maxima_.end(), fillers_.begin(), fillers_.end());
+  for (auto* const list : {&fillers_, &maxima_}) {
     std::sort(list->begin(), list->end());
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
 }
 
-void RingBasis::count_branches(std::uint32_t vertex_count, std::span<const Link> links) {
+void CycleBasis::count_branches(std::uint32_t vertex_count, std::span<const Link> links) {
   branches_.assign(vertex_count, 0);
   for (const Link& link : links) ++branches_[link.a];
   for (const Closing& closing : closings_)
     branches_[closing.upper] -= closing.filled_at == closing.upper;
 }
 
-std::size_t RingBasis::hole_count(const ComplexPart& part) const noexcept {
+std::size_t CycleBasis::hole_count(const ComplexPart& part) const noexcept {
   return static_cast<std::size_t>(
       std::count_if(closings_.begin(), closings_.end(),
                     [&](const Closing& closing) { return closing.is_open(part); }));
 }
 
-std::size_t RingBasis::shut_count(const ComplexPart& part, std::uint32_t end) const noexcept {
+std::size_t CycleBasis::shut_count(const ComplexPart& part, std::uint32_t end) const noexcept {
   return static_cast<std::size_t>(
       std::count_if(closings_.begin(), closings_.end(),
                     [&](const Closing& closing) { return closing.is_shut(part, end); }));
 }
 
-std::size_t RingBasis::shut_count(std::uint32_t first, std::uint32_t end) const noexcept {
+std::size_t CycleBasis::shut_count(std::uint32_t first, std::uint32_t end) const noexcept {
   return static_cast<std::size_t>(
       std::count_if(closings_.begin(), closings_.end(), [&](const Closing& closing) {
         return closing.filled_at != closing.upper && first <= closing.filled_at &&
@@ -112,8 +112,8 @@ std::size_t RingBasis::shut_count(std::uint32_t first, std::uint32_t end) const 
       }));
 }
 
-void RingBasis::find_drops(const ComplexPart& part, std::uint32_t end, std::span<const Link> links,
-                           std::span<double> drops, std::span<double> shut) {
+void CycleBasis::find_drops(const ComplexPart& part, std::uint32_t end, std::span<const Link> links,
+                            std::span<double> drops, std::span<double> shut) {
   forest_.grow(part.vertex_count, links);
   forest_.hang(links);
   const std::size_t shut_each = shut_count(part, end);
@@ -134,9 +134,10 @@ void RingBasis::find_drops(const ComplexPart& part, std::uint32_t end, std::span
 
 /// Gauss-Jordan elimination: of the links in rising order of their resistance each that is left in
 /// a row without one becomes that row's own.
-void RingBasis::set_apart(std::size_t rows, std::span<double> drops, std::span<double> shut) const {
+void CycleBasis::set_apart(std::size_t rows, std::span<double> drops,
+                           std::span<double> shut) const {
   const std::size_t links = drops.size() / rows;
-  const std::size_t rings = shut.size() / rows;
+  const std::size_t cycles = shut.size() / rows;
   const auto closing = forest_.closing_links();
   std::size_t done = 0;
   for (std::size_t at = 0; at < closing.size() && done < rows; ++at) {
@@ -146,23 +147,23 @@ void RingBasis::set_apart(std::size_t rows, std::span<double> drops, std::span<d
     if (row == rows) continue;
     for (const std::uint32_t link : closing)
       std::swap(drops[row * links + link], drops[done * links + link]);
-    for (std::size_t k = 0; k < rings; ++k)
-      std::swap(shut[row * rings + k], shut[done * rings + k]);
+    for (std::size_t k = 0; k < cycles; ++k)
+      std::swap(shut[row * cycles + k], shut[done * cycles + k]);
     for (std::size_t other = 0; other < rows; ++other) {
       const double factor = drops[other * links + own] / drops[done * links + own];
       if (other == done || factor == 0.0) continue;
       for (const std::uint32_t link : closing)
         drops[other * links + link] -= factor * drops[done * links + link];
-      for (std::size_t k = 0; k < rings; ++k)
-        shut[other * rings + k] -= factor * shut[done * rings + k];
+      for (std::size_t k = 0; k < cycles; ++k)
+        shut[other * cycles + k] -= factor * shut[done * cycles + k];
     }
     ++done;
   }
 }
 
 /// The drops along the closing links of a part whose sum is 1 round one hole and 0 round all other
-/// rings; left in row_.
-void RingBasis::set_circulation(std::size_t open, const ComplexPart& part) {
+/// cycles; left in row_.
+void CycleBasis::set_circulation(std::size_t open, const ComplexPart& part) {
   row_[open] = 1.0;
   for (std::size_t k = open + 1; k < closings_.size(); ++k) {
     const Closing& closing = closings_[k];
@@ -175,23 +176,24 @@ void RingBasis::set_circulation(std::size_t open, const ComplexPart& part) {
   }
 }
 
-void RingBasis::set_shut(const ComplexPart& part, std::uint32_t end, std::span<double> shut) const {
-  std::size_t ring = 0;
+void CycleBasis::set_shut(const ComplexPart& part, std::uint32_t end,
+                          std::span<double> shut) const {
+  std::size_t cycle = 0;
   for (const Closing& closing : closings_) {
     if (!closing.is_shut(part, end)) continue;
     double sum = 0.0;
     for (const Current& entry : std::span(currents_).subspan(closing.first, closing.count))
       sum += entry.current * row_[entry.closing];
-    shut[ring++] = sum;
+    shut[cycle++] = sum;
   }
 }
 
 /// Takes off the gradient of a potential, so that the drops are 0 along the links of a forest of
 /// little resistance. The drops are small whole numbers, so this is exact. What is left is on links
 /// that resist at least half as much as any on the way round them: a drop of 1 along a link of
-/// hardly any resistance, in a ring of others, would be so strong that all else drowned in its
+/// hardly any resistance, in a cycle of others, would be so strong that all else drowned in its
 /// rounding errors.
-void RingBasis::set_on_no_tree(std::span<const Link> links, std::span<double> drops) {
+void CycleBasis::set_on_no_tree(std::span<const Link> links, std::span<double> drops) {
   potential_.assign(forest_.downwards().size(), 0.0);
   for (const std::uint32_t vertex : forest_.downwards()) {
     const SpanningForest::Parent& up = forest_.parent(vertex);

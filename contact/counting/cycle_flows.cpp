@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_flows.hpp"
+#include "contact/counting/cycle_flows.hpp"
 
 #include "geometry/base/pack.hpp"
 
@@ -32,8 +32,8 @@ double dot(std::span<const double> a, std::span<const double> b) noexcept {
 
 }  // namespace
 
-void RingFlows::build(std::uint32_t vertex_count, std::span<const Link> links,
-                      std::span<const Filling> fillings) {
+void CycleFlows::build(std::uint32_t vertex_count, std::span<const Link> links,
+                       std::span<const Filling> fillings) {
   vertex_count_ = vertex_count;
   all_links_.assign(links.begin(), links.end());
   is_planned_ = false;
@@ -41,10 +41,10 @@ void RingFlows::build(std::uint32_t vertex_count, std::span<const Link> links,
   basis_.build(vertex_count, links, fillings);
 }
 
-std::size_t RingFlows::find(const ComplexPart& part, std::uint32_t end,
-                            std::span<const double> resistances) {
+std::size_t CycleFlows::find(const ComplexPart& part, std::uint32_t end,
+                             std::span<const double> resistances) {
   hole_count_ = basis_.hole_count(part);
-  flow_count_ = end == RingBasis::kNone ? hole_count_ : basis_.shut_count(part, end);
+  flow_count_ = end == CycleBasis::kNone ? hole_count_ : basis_.shut_count(part, end);
   if (flow_count_ == 0) return 0;
   if (!is_planned_) elimination_.plan(vertex_count_, all_links_);
   is_planned_ = true;
@@ -54,25 +54,25 @@ std::size_t RingFlows::find(const ComplexPart& part, std::uint32_t end,
     links_.push_back({all_links_[i].a, all_links_[i].b, resistances[i]});
     conductances_.push_back(1.0 / resistances[i]);
   }
-  is_graph_ = !has_fillings_ && end == RingBasis::kNone;
+  is_graph_ = !has_fillings_ && end == CycleBasis::kNone;
   if (is_graph_) {
     elimination_.eliminate(part.vertex_count, conductances_);
     return flow_count_;
   }
   find_currents(part, end);
   factor_products();
-  find_flows(end == RingBasis::kNone);
+  find_flows(end == CycleBasis::kNone);
   return flow_count_;
 }
 
 /// A set of flows, neither orthogonal nor of length 1, and their products.
-void RingFlows::find_currents(const ComplexPart& part, std::uint32_t end) {
+void CycleFlows::find_currents(const ComplexPart& part, std::uint32_t end) {
   elimination_.eliminate(part.vertex_count, conductances_);
   const std::size_t links = links_.size();
   const std::size_t joins = elimination_.join_count();
   const auto currents = room_for(currents_, hole_count_ * links);
   const auto differences = room_for(differences_, hole_count_ * joins);
-  basis_.find_drops(part, end == RingBasis::kNone ? part.filling_count : end, links_, currents,
+  basis_.find_drops(part, end == CycleBasis::kNone ? part.filling_count : end, links_, currents,
                     room_for(shut_, hole_count_ * flow_count_));
   const auto products = room_for(factor_, hole_count_ * hole_count_);
   auto& weighed = rest_;
@@ -89,7 +89,7 @@ void RingFlows::find_currents(const ComplexPart& part, std::uint32_t end) {
 }
 
 /// In units in which the diagonal is 1, so that holes may be of any sizes.
-void RingFlows::factor_products() {
+void CycleFlows::factor_products() {
   const std::size_t n = hole_count_;
   units_.clear();
   for (std::size_t k = 0; k < n; ++k) {
@@ -107,7 +107,7 @@ void RingFlows::factor_products() {
   }
 }
 
-void RingFlows::solve_lower(std::span<double> row) const noexcept {
+void CycleFlows::solve_lower(std::span<double> row) const noexcept {
   for (std::size_t k = 0; k < hole_count_; ++k) {
     const double* const factors = factor_.data() + k * hole_count_;
     double rest = row[k];
@@ -116,17 +116,17 @@ void RingFlows::solve_lower(std::span<double> row) const noexcept {
   }
 }
 
-void RingFlows::solve_upper(std::span<double> row) const noexcept {
+void CycleFlows::solve_upper(std::span<double> row) const noexcept {
   for (std::size_t k = hole_count_; k-- > 0;) {
     row[k] /= factor_[k * hole_count_ + k];
     for (std::size_t j = 0; j < k; ++j) row[j] -= factor_[k * hole_count_ + j] * row[k];
   }
 }
 
-/// Flows orthogonal to those that a step leaves have with a ring that it fills the product that the
-/// ring has with them: with the factor L of the products and the sums s round such a ring their
-/// coefficients are L^-T of a combination of L^-1 s.
-void RingFlows::find_flows(bool all) {
+/// Flows orthogonal to those that a step leaves have with a cycle that it fills the product that
+/// the cycle has with them: with the factor L of the products and the sums s round such a cycle
+/// their coefficients are L^-T of a combination of L^-1 s.
+void CycleFlows::find_flows(bool all) {
   const std::size_t n = hole_count_;
   room_for(gone_, flow_count_ * n);
   room_for(flows_, flow_count_ * links_.size());
@@ -154,8 +154,8 @@ void RingFlows::find_flows(bool all) {
 }
 
 /// @param coefficients  by hole, in units of its own
-void RingFlows::add_currents(std::span<const double> coefficients,
-                             std::span<double> flow) const noexcept {
+void CycleFlows::add_currents(std::span<const double> coefficients,
+                              std::span<double> flow) const noexcept {
   for (std::size_t k = 0; k < hole_count_; ++k) {
     const double factor = units_[k] * coefficients[k];
     const auto of_hole = current(k);
@@ -163,7 +163,7 @@ void RingFlows::add_currents(std::span<const double> coefficients,
   }
 }
 
-std::span<const double> RingFlows::shares(std::span<const double> values) {
+std::span<const double> CycleFlows::shares(std::span<const double> values) {
   shares_.assign(links_.size(), 0.0);
   if (is_graph_) {
     slopes_.resize(links_.size());
@@ -179,17 +179,18 @@ std::span<const double> RingFlows::shares(std::span<const double> values) {
   return shares_;
 }
 
-double RingFlows::sum_of_products(std::span<const double> a, std::span<const double> b,
-                                  std::span<const double> values) const noexcept {
+double CycleFlows::sum_of_products(std::span<const double> a, std::span<const double> b,
+                                   std::span<const double> values) const noexcept {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += links_[i].resistance * values[i] * a[i] * b[i];
   return sum;
 }
 
-/// What of value * flow goes round filled rings: what is left when the part that has a potential
+/// What of value * flow goes round filled cycles: what is left when the part that has a potential
 /// and the flows round holes are taken off. Left in rest_.
-void RingFlows::take_off_other_flows(std::span<const double> values, std::span<const double> flow) {
-  // Most often the values on a ring are about the same, and of a constant nothing is left.
+void CycleFlows::take_off_other_flows(std::span<const double> values,
+                                      std::span<const double> flow) {
+  // Most often the values on a cycle are about the same, and of a constant nothing is left.
   const double mean = sum_of_products(flow, flow, values);
   rest_.clear();
   for (std::size_t i = 0; i < links_.size(); ++i)
@@ -205,9 +206,9 @@ void RingFlows::take_off_other_flows(std::span<const double> values, std::span<c
 }
 
 /// Of flows i, with values v and weights R: the sums of R v i i change by that of dR (v i - 2 b) i,
-/// where b is what of v i goes round filled rings, as the flows give way by what goes round these;
+/// where b is what of v i goes round filled cycles, as the flows give way by what goes round these;
 /// and by that of -dR i i times the sums themselves, as their lengths stay 1.
-std::span<const double> RingFlows::slopes(std::span<const double> values) {
+std::span<const double> CycleFlows::slopes(std::span<const double> values) {
   if (is_graph_) return slopes_;
   slopes_.assign(links_.size(), 0.0);
   for (std::size_t f = 0; f < flow_count_; ++f) {

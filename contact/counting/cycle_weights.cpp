@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/counting/ring_weights.hpp"
+#include "contact/counting/cycle_weights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 namespace plekton::contact {
 namespace {
 
-/// Of the range. Levels of tops that are as near are one, as rounding parts them in bodies that are
-/// symmetric.
+/// Of the range. Levels of maxima that are as near are one, as rounding parts them in bodies that
+/// are symmetric.
 constexpr double kTie = 1e-12;
 
 /// Of the overlap. Two vertices that are nearer to one distance have a link of this drop, which is
@@ -17,11 +17,12 @@ constexpr double kTie = 1e-12;
 constexpr double kLeastDrop = 1e-12;
 
 /// In units of the deepest overlap: the power n + 1 of 1 / (o^2 - t^2) has to be a number. What is
-/// left out so overlaps by 3e-12 of the deepest, or ends with a top that is as near to the range.
+/// left out so overlaps by 3e-12 of the deepest, or ends with a maximum that is as near to the
+/// range.
 constexpr double kLeastDifference = 1e-23;
 
-/// n: the sharper, the less is given back beyond pieces and the less the force jumps where tops
-/// tie, and the faster it turns from pass to pass where two of these do.
+/// n: the sharper, the less is given back beyond pieces and the less the force jumps where maxima
+/// tie, and the faster it turns from saddle to saddle where two of these do.
 constexpr int kSharpness = 12;
 
 constexpr double power(double x, int n) noexcept {
@@ -43,8 +44,8 @@ constexpr double power_slope(double x, double y, int n) noexcept {
 
 }  // namespace
 
-std::span<const RingWeights::Share> RingWeights::find(const LevelComplex& complex, double range,
-                                                      std::span<const double> energies) {
+std::span<const CycleWeights::Share> CycleWeights::find(const LevelComplex& complex, double range,
+                                                        std::span<const double> energies) {
   complex_ = &complex;
   range_ = range;
   energies_ = energies;
@@ -58,9 +59,9 @@ std::span<const RingWeights::Share> RingWeights::find(const LevelComplex& comple
     const std::uint32_t first = fillers[i];
     const double level = distances[first];
     while (i < fillers.size() && is_at(level, fillers[i])) ++i;
-    end_holes({level, first, fillers[i - 1] + 1, tops_at(level)});
+    end_holes({level, first, fillers[i - 1] + 1, maxima_at(level)});
   }
-  end_holes({range, count, RingBasis::kNone, {}});
+  end_holes({range, count, CycleBasis::kNone, {}});
   shares_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (weights_[i] != 0.0 || slopes_[i] != 0.0) shares_.push_back({i, weights_[i], slopes_[i]});
@@ -68,30 +69,30 @@ std::span<const RingWeights::Share> RingWeights::find(const LevelComplex& comple
   return shares_;
 }
 
-/// As if every pass joined pieces. In the order of the distances as they are rounded, so that what
-/// is taken off here and what the holes give back agree about it.
-void RingWeights::count_pieces() {
+/// As if every saddle joined pieces. In the order of the distances as they are rounded, so that
+/// what is taken off here and what the holes give back agree about it.
+void CycleWeights::count_pieces() {
   weights_.clear();
   for (const std::uint32_t branches : flows_.basis().branches()) weights_.push_back(1.0 - branches);
 }
 
-std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept {
-  const auto tops = flows_.basis().tops();
-  const auto tied = [&](std::uint32_t top) { return is_at(level, top); };
-  const auto first = std::find_if(tops.begin(), tops.end(), tied);
-  return {first, std::find_if_not(first, tops.end(), tied)};
+std::span<const std::uint32_t> CycleWeights::maxima_at(double level) const noexcept {
+  const auto maxima = flows_.basis().maxima();
+  const auto tied = [&](std::uint32_t maximum) { return is_at(level, maximum); };
+  const auto first = std::find_if(maxima.begin(), maxima.end(), tied);
+  return {first, std::find_if_not(first, maxima.end(), tied)};
 }
 
-bool RingWeights::is_at(double level, std::uint32_t vertex) const noexcept {
+bool CycleWeights::is_at(double level, std::uint32_t vertex) const noexcept {
   return std::abs(complex_->distances()[vertex] - level) <= kTie * range_;
 }
 
-void RingWeights::end_holes(const End& end) {
-  const RingBasis& basis = flows_.basis();
-  const bool is_top = !end.tops.empty();
-  const std::uint32_t filled = is_top ? end.first : RingBasis::kNone;
+void CycleWeights::end_holes(const End& end) {
+  const CycleBasis& basis = flows_.basis();
+  const bool is_maximum = !end.maxima.empty();
+  const std::uint32_t filled = is_maximum ? end.first : CycleBasis::kNone;
   const std::size_t holes =
-      is_top ? basis.shut_count(end.first, end.end) : basis.hole_count({end.first, filled});
+      is_maximum ? basis.shut_count(end.first, end.end) : basis.hole_count({end.first, filled});
   if (holes == 0) return;
   set_overlaps(end);
   // Vertices that tie with the level are left out, and the holes that begin with them.
@@ -103,11 +104,12 @@ void RingWeights::end_holes(const End& end) {
     add_slopes(end);
   }
   // Holes that end as they begin.
-  for (const std::uint32_t top : end.tops)
-    weights_[top] += static_cast<double>(holes - flows) / static_cast<double>(end.tops.size());
+  for (const std::uint32_t maximum : end.maxima)
+    weights_[maximum] +=
+        static_cast<double>(holes - flows) / static_cast<double>(end.maxima.size());
 }
 
-void RingWeights::share_out() {
+void CycleWeights::share_out() {
   values_.clear();
   for (std::size_t i = 0; i < resistances_.size(); ++i)
     values_.push_back(energies_[complex_->links()[i].a]);
@@ -116,16 +118,16 @@ void RingWeights::share_out() {
 }
 
 /// Of the vertices below a level.
-void RingWeights::set_overlaps(const End& end) {
+void CycleWeights::set_overlaps(const End& end) {
   const auto distances = complex_->distances();
   const double unit = range_ - distances.front();
-  top_ = (range_ - end.level) / unit;
+  level_overlap_ = (range_ - end.level) / unit;
   overlaps_.clear();
   inverses_.clear();
   for (const double distance : distances.first(end.first)) {
     const double below = end.level - distance;
     const double overlap = (range_ - distance) / unit;
-    const double difference = below / unit * (overlap + top_);
+    const double difference = below / unit * (overlap + level_overlap_);
     if (!(below > kLeastLife * range_ && difference > kLeastDifference)) break;
     overlaps_.push_back(overlap);
     inverses_.push_back(1.0 / difference);
@@ -133,7 +135,7 @@ void RingWeights::set_overlaps(const End& end) {
 }
 
 /// Of the links between them.
-void RingWeights::set_resistances() {
+void CycleWeights::set_resistances() {
   const auto distances = complex_->distances();
   const double unit = range_ - distances.front();
   resistances_.clear();
@@ -152,10 +154,10 @@ void RingWeights::set_resistances() {
   }
 }
 
-void RingWeights::add_slopes(const End& end) {
+void CycleWeights::add_slopes(const End& end) {
   const auto by_resistance = flows_.slopes(values_);
   const double per_metre = 2.0 * kSharpness / (range_ - complex_->distances().front());
-  double of_top = 0.0;
+  double of_level = 0.0;
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
     if (is_level_[i] != 0) continue;
     const Link& link = complex_->links()[i];
@@ -165,10 +167,10 @@ void RingWeights::add_slopes(const End& end) {
     const double lower = slope * power(inverses_[link.b], kSharpness) * inverses_[link.b];
     slopes_[link.a] -= upper * overlaps_[link.a];
     slopes_[link.b] += lower * overlaps_[link.b];
-    of_top += (upper - lower) * top_;
+    of_level += (upper - lower) * level_overlap_;
   }
-  for (const std::uint32_t top : end.tops)
-    slopes_[top] += of_top / static_cast<double>(end.tops.size());
+  for (const std::uint32_t maximum : end.maxima)
+    slopes_[maximum] += of_level / static_cast<double>(end.maxima.size());
 }
 
 }  // namespace plekton::contact
