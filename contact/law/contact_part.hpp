@@ -16,7 +16,7 @@ using ContactStiffness = ContactStiffnessOf<double>;
 /// What a part answers where it has nothing to say, as LawDefaults of a law. The stiffness is that
 /// of the law it is added to.
 struct PartDefaults {
-  /// As LawDefaults has it, as the next but one.
+  /// See LawDefaults.
   template <class Properties>
   static void list_problems(const Properties&, std::ostream&) {}
 
@@ -25,6 +25,7 @@ struct PartDefaults {
   static double normal_damping(const Parameters&, const ContactStiffness&) noexcept {
     return 0.0;
   }
+  /// See LawDefaults.
   template <class History>
   static void scale_history(History&, double) noexcept {}
 

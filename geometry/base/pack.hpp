@@ -50,7 +50,7 @@ struct Pack {
     return pack;
   }
   PLEKTON_INLINE void store(double* to) const noexcept { std::memcpy(to, &lanes, sizeof(lanes)); }
-  /// From the bytes of W numbers in a row, as part of which things they are.
+  /// From the bytes of W numbers in a row, whatever things they are part of.
   PLEKTON_INLINE static Pack load_bytes(const std::byte* from) noexcept {
     Pack pack;
     std::memcpy(&pack.lanes, from, sizeof(pack.lanes));
