@@ -31,8 +31,8 @@ class PairNumbers {
     std::ranges::sort(newer.rows_, is_before);
     std::vector<Row> all;
     std::ranges::merge(newer.rows_, rows_, std::back_inserter(all), is_before);
-    const auto twice = std::ranges::unique(all, {}, &Row::pair);
-    all.erase(twice.begin(), twice.end());
+    const auto is_same = [](const Row& a, const Row& b) { return a.pair == b.pair; };
+    all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
     rows_ = std::move(all);
   }
 

@@ -270,6 +270,14 @@ class SeededTree(unittest.TestCase):
         self.assert_clean("geometry/primitives/box.cpp", TAG + '#include "geometry/primitives/box.hpp"\n#include <Eigen/LU>\n')
         self.assert_flagged("geometry/primitives/ball.cpp", TAG + "#include <Eigen/LU>\n", "same bits everywhere")
 
+    def test_what_clang_does_not_compile_is_flagged(self):
+        for code in ("auto rest = std::ranges::unique(all);", "for (int i : std::views::iota(0, 3)) use(i);"):
+            with self.subTest(code=code):
+                self.assert_flagged("contact/tracking/rekey.hpp", TAG + code + "\n", "does not compile with clang 14")
+        self.assert_clean(
+            "contact/tracking/rekey.hpp", TAG + "std::ranges::sort(all); // std::views\nall.erase(std::unique(a, b), b);\n"
+        )
+
     def test_build_folders_are_not_read(self):
         self.assert_clean("build/dev/generated.cpp", "no tag\n")
 

@@ -495,6 +495,23 @@ def eigen_does_not_vectorise(source, root):
         yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
 
 
+SUBRANGE = re.compile(
+    r"\bstd::(?:ranges::(?:unique|remove|remove_if|partition|stable_partition|rotate|search|search_n|find_end|equal_range|subrange"
+    r"|views)\b|views\b)"
+)
+
+
+def compiles_with_clang_too(source, root):
+    """clang 14, which the sanitizers and fuzzers are compiled with on Debian 12, knows no views and subranges of the library
+    beside it."""
+    if not source.path.endswith((".cpp", ".hpp")):
+        return
+    code = _code_of(source.text)
+    for match in SUBRANGE.finditer(code):
+        line = code.count("\n", 0, match.start()) + 1
+        yield f"{source.path}:{line}: {match[0]} does not compile with clang 14, as sanitizers do; take an algorithm of iterators"
+
+
 RULES = (
     layers,
     app_layers,
@@ -506,6 +523,7 @@ RULES = (
     no_class_in_parts,
     same_bits_on_every_processor,
     eigen_does_not_vectorise,
+    compiles_with_clang_too,
     one_home_for_each_type,
     public_headers_name_public_headers,
     internal_headers_are_not_installed,
