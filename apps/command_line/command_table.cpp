@@ -5,28 +5,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
 
 namespace plekton::apps {
 namespace {
 
-CommandOption option_of(const CLI::Option& option) {
-  const bool is_argument = option.get_positional();
-  return {is_argument ? option.get_name(true, false) : "--" + option.get_lnames().front(),
-          option.get_description(),
-          option.get_items_expected_max(),
-          option.get_items_expected_min() > 0,
-          is_argument,
-          option.get_required()};
-}
-
-/// What stands for the value of an option: its name in capitals.
-std::string placeholder_of(const std::string& name) {
+/// What stands for the value of an option: what it says itself, as in "[PORT]", or else its name in
+/// capitals.
+std::string value_of(const CLI::Option& option, const std::string& name) {
+  const std::string type = option.get_type_name();
+  constexpr std::array<std::string_view, 5> kGeneric{"TEXT", "INT", "UINT", "FLOAT", "BOOLEAN"};
+  const bool is_told = !type.empty() && std::ranges::none_of(kGeneric, [&](std::string_view word) {
+    return type.starts_with(word);
+  });
+  if (is_told) return type.starts_with('[') ? type.substr(1, type.size() - 2) : type;
   std::string text = name.substr(std::min(name.find_first_not_of('-'), name.size()));
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
     return c == '-' ? '_' : static_cast<char>(std::toupper(c));
   });
   return text;
+}
+
+CommandOption option_of(const CLI::Option& option) {
+  const bool is_argument = option.get_positional();
+  const std::string name =
+      is_argument ? option.get_name(true, false) : "--" + option.get_lnames().front();
+  return {name,
+          option.get_description(),
+          option.get_items_expected_max(),
+          option.get_items_expected_min() > 0,
+          value_of(option, name),
+          is_argument,
+          option.get_required()};
 }
 
 }  // namespace
@@ -46,12 +58,9 @@ std::vector<CommandEntry> command_table(const CLI::App& app) {
 }
 
 std::string usage_of(const CommandOption& option) {
-  const std::string value = placeholder_of(option.name);
-  if (option.is_argument) return value;
-  if (option.name == "--set") return "--set PATH=VALUE";
+  if (option.is_argument) return option.value;
   if (option.values == 0) return option.name;
-  if (!option.needs_value) return fmt::format("{} [{}]", option.name, value);
-  if (option.name == "--interval") return option.name + " BEGIN END";
+  const std::string value = option.needs_value ? option.value : fmt::format("[{}]", option.value);
   return fmt::format("{} {}", option.name, value);
 }
 

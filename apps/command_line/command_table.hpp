@@ -17,6 +17,7 @@ struct CommandOption {
   std::string what;
   int values = 0;  ///< at most; 0 of a flag
   bool needs_value = false;
+  std::string value;  ///< what stands for it, as in "OUT", "STAGE DIR"
   bool is_argument = false;
   bool is_required = false;
 };

@@ -26,7 +26,7 @@ constexpr std::string_view kScenario =
 duration = "0.4 s"
 # time_step = "1 us"            # chosen during the run if not given
 gravity = [0, 0, "-9.81 m/s2"]
-damping = 0.1                   # numerical; 0 for none
+damping = 0.1                   # numerical, of a fall too unless damp_gravity = false; 0 for none
 # threads = 2                   # the result is the same for any number
 
 # What bodies bring to their contacts.

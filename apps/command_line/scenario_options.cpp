@@ -15,7 +15,8 @@ CLI::Option* add_scenario_options(CLI::App& command, ScenarioOptions& options) {
       "relative to the current folder; apps/scenario.md documents its keys");
   command
       .add_option("--set", options.overrides,
-                  "Replace a value: path=value, as in simulation.duration=\"1 s\"; may be repeated")
+                  "Replace a value, as in simulation.duration=\"1 s\"; may be repeated")
+      ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   add_threads_option(command, options);
   return file;

@@ -65,6 +65,10 @@ class StepAdvice {
         node_, body(), scene_.properties.mass[node_], cause_.step.rotation ? "turns" : "moves",
         100.0 * cause_.share, part());
     text += fmt::format("  to lengthen it: {}\n", advice());
+    if (cause_.step.rotation && membrane_ &&
+        scenario_.membranes[*membrane_].nodal_inertia == dynamics::NodalInertia::ball)
+      text += fmt::format("  or nodal_inertia = \"length\" of {}, as it is a turn\n",
+                          scenario_.membranes[*membrane_].name);
     if (cause_.without_gas_and_damping < kShortened * cause_.without_dashpots)
       text += fmt::format(
           "  dashpots shorten it from {:.4g} s, most where heavy grains meet light nodes: raise "

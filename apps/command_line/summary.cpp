@@ -73,9 +73,9 @@ std::string line_of_step(const PreparedRun& prepared, bool is_stage) {
   const double dt = simulation.time_step();
   const double ratio = simulation.motion_ratio();
   return fmt::format(
-      "time step: {:.4g} s{}, {:.4g} s is critical with all contacts that may come, {:.0f} steps "
+      "time step: {:.4g} s{}; critical with all contacts that may come: {:.4g} s; {:.0f} steps "
       "in {} at this one{}\n",
-      dt, simulation.chooses_time_step() ? " to begin with, as little touches as now" : "",
+      dt, simulation.chooses_time_step() ? " to begin with, for what touches now" : "",
       simulation.critical_step().dt, std::ceil(prepared.duration / dt),
       is_stage ? "this stage at the most" : "all",
       ratio > 0.9 * dynamics::kLargestMotion

@@ -178,7 +178,8 @@ ProgramCommand add_verify(CLI::App& app) {
           "--interval", arguments->interval,
           "Begin and end, as in \"0.1 s\" \"0.2 s\": from the checkpoint of the step of the "
           "begin, or else the last one before it, to that of the end")
-      ->expected(2);
+      ->expected(2)
+      ->type_name("BEGIN END");
   add_threads_option(*verify, arguments->scenario);
   return {verify, [arguments] {
             const bool is_same = verify_run(*arguments, std::cout, std::cerr);

@@ -34,6 +34,8 @@ const std::vector<std::set<std::string>>& absences() {
        "output.reactions[].rigid_body",
        "rigid_bodies[].spheres",
        "rigid_bodies[].mass",
+       "rigid_bodies[].longest_hole",
+       "rigid_bodies[].wrap_detail",
        "stages[].remove[].grains",
        "stages[].fix[].grains",
        "stages[].free[].grains",

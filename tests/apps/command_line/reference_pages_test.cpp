@@ -60,8 +60,10 @@ TEST(ReferencePages, HaveTablesWithAsManyCellsInEveryRow) {
 TEST(ReferencePages, HaveEveryCommandOfTheHelpAndNotTheHiddenOne) {
   const std::string page = outcome_of({"generate", "commands"}).out;
 
-  EXPECT_THAT(page, HasSubstr("plekton view RUN [--out OUT] [--limit LIMIT] [--serve [SERVE]]"));
+  EXPECT_THAT(page, HasSubstr("plekton view RUN [--out OUT] [--limit LIMIT] [--serve [PORT]]"));
   EXPECT_THAT(page, HasSubstr("`--set PATH=VALUE`"));
+  EXPECT_THAT(page, HasSubstr("`--from STAGE DIR`"));
+  EXPECT_THAT(page, HasSubstr("`--interval BEGIN END`"));
   EXPECT_THAT(page, testing::Not(HasSubstr("plekton generate")));
 }
 

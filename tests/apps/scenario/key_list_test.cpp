@@ -194,7 +194,10 @@ TEST(KeyList, HasUnitsRangesAndDefaults) {
   };
 
   EXPECT_EQ(key("[simulation]", "", "duration"), "required; time (s) above 0");
-  EXPECT_EQ(key("[[membranes]]", "", "fill_holes"), "false; true or false");
+  for (const std::string table : {"[[membranes]]", "[[rigid_bodies]]"}) {
+    EXPECT_EQ(key(table, "", "fill_holes"), "false; true or false");
+    EXPECT_EQ(key(table, "", "wrap"), "false; true or false");
+  }
   EXPECT_EQ(key("[[loads]]", "pressure", "gas.exponent"), "1; number without unit above 0");
   EXPECT_EQ(key("[[loads]]", "motion", "angular_velocity"), "-; 3 x angular velocity (rad/s)");
   EXPECT_EQ(key("[[loads]]", "motion", "grains"), "-; text");

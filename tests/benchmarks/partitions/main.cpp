@@ -125,7 +125,8 @@ struct Bed {
       for (int j = 0; j < side; ++j)
         for (int k = (i + j) % 2; k < side; k += 2) {
           at[cell(i, j, k)] = static_cast<std::int32_t>(x.size());
-          spheres.push_back({geometry::id_at<NodeId>(x.size()), 0.7, contact::MaterialId{0}, -1, 1.0});
+          spheres.push_back(
+              {geometry::id_at<NodeId>(x.size()), 0.7, contact::MaterialId{0}, -1, 1.0});
           x.emplace_back(i, j, k);
         }
     constexpr std::array<std::array<int, 3>, 6> kAhead = {

@@ -96,6 +96,18 @@ TEST_F(TimeStepAdvice, SaysThatDashpotsShortenTheStep) {
   EXPECT_THAT(check({"contacts.0.restitution=1"}), Not(HasSubstr("dashpots")));
 }
 
+TEST_F(TimeStepAdvice, NamesTheInertiaOfEdgesWhereATurnLimits) {
+  const std::string file = (folder_ / "first.toml").string();
+  ASSERT_EQ(outcome_of({"new", file}).exit_code, kDone);
+
+  const std::string out = outcome_of({"check", file}).out;
+
+  EXPECT_THAT(out, HasSubstr("as it turns"));
+  EXPECT_THAT(out, HasSubstr("or nodal_inertia = \"length\" of sheet"));
+  EXPECT_THAT(outcome_of({"check", file, "--set", "membranes.0.nodal_inertia=length"}).out,
+              Not(HasSubstr("nodal_inertia")));
+}
+
 // It named 0.65 of the critical step with all contacts that may come, which is not what is chosen.
 TEST_F(TimeStepAdvice, NamesForAGivenStepThatIsTooLongTheOneThatWouldBeChosen) {
   const std::string out = check({});
