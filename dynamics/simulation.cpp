@@ -633,9 +633,11 @@ ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Ve
 }
 
 double Simulation::unbalanced_force_ratio() const {
-  const std::vector<Vec3> positions = force_positions();
-  return dynamics::unbalanced_force_ratio({positions, forces_, scene_.properties, motion_.gravity},
-                                          mean_carried(resistance(), positions));
+  nodes_.know_all();
+  const NodeState then = state_before(scene_.state, last_drift_);
+  return dynamics::unbalanced_force_ratio(
+      {then.position, forces_, scene_.properties, motion_.gravity},
+      mean_carried(resistance(), then));
 }
 
 std::vector<FacetTraction> Simulation::facet_tractions() {
@@ -781,7 +783,9 @@ void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
         std::to_string(steps_));
   require_places(before.scene_, scene_, change);
   require_same_structures(before.surface_, change.places.nodes);
+  const NodalStiffness::Total stiffness = initial_stiffness_;
   take_state(before, change);
+  initial_stiffness_ = stiffness;
   take_contacts(before, change.places);
   ties_.follow(scene_.elements);
   follow_holds(before.scene_, change.places.nodes, scene_, rigid_bodies_);

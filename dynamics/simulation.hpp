@@ -284,7 +284,7 @@ class Simulation {
   /// loads may be other ones of the same kinds. Those that have been set there go on so, by place.
   /// @throws std::logic_error after the first step
   /// @throws geometry::StateMismatch if the state is of another scene, or damaged, or its step was
-  ///         chosen and this one's is given or the other way round, or loads move other planes: the
+  ///         chosen and this one's is given, or loads move other planes: the
   ///         simulation can only be thrown away then
   void restore(const geometry::StateTree& state);
   /// The same, to and from an HDF5 file with a data set for every array of the state. load() refuses
@@ -385,9 +385,9 @@ class Simulation {
   std::int64_t steps_ = 0;
   double fastest_ = std::numeric_limits<double>::infinity();  ///< m/s, after the last step
   double fastest_spin_ = 0.0;                                 ///< rad/s, after the last step
-  double largest_radius_;        ///< m, at the start
+  double largest_radius_;                                     ///< m, at the start
   double least_furthest_ = 0.0;  ///< m, what any node may move in a step
-  double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
+  double pace_radius_ = 0.0;     ///< m, against which the motion in a chosen step is measured
   bool may_touch_ = true;
   EnergyLedger ledger_;
   Vec3 full_gravity_;                        ///< m/s², of which motion_.gravity is a part

@@ -3,7 +3,6 @@
 
 #include "apps/run/run_stages.hpp"
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <ostream>

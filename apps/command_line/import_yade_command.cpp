@@ -52,7 +52,7 @@ yade::Takeover tried(const yade::Scene& scene, const fs::path& script, const fs:
   options.script = script.filename().string();
   yade::Takeover takeover = yade::take_over(scene, options);
   std::string problem = problem_of(takeover.scenario, file);
-  if (problem.find("simulation.time_step") != std::string::npos) {
+  if (problem.find("simulation.time_step:") != std::string::npos) {
     const std::string refused = problem;
     options.has_chosen_step = true;
     takeover = yade::take_over(scene, options);

@@ -63,7 +63,7 @@ int run_on_ranks(RunArguments& arguments) {
   arguments.ranks = job.ranks();
   if (arguments.ranks == nullptr) return run_asked(arguments);
   try {
-    if (arguments.scenario.file == "-")
+    if (arguments.scenario.file == "-" && arguments.ranks->count() > 1)
       throw InputError("run: standard input comes to the first rank alone; name a scenario file");
     return run_asked(arguments);
   } catch (const std::exception& error) {

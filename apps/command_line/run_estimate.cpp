@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -103,7 +102,7 @@ Bounds frame_bytes(const Scenario& scenario, PreparedRun& prepared, double most_
   return bytes;
 }
 
-/// Rows of energy.csv and reactions.csv.
+/// Rows of energy.csv and reactions.csv, which have most of the columns in most runs.
 Bounds table_bytes(const Scenario& scenario, double steps) {
   const double duration = scenario.simulation.duration;
   const double histories = times_of(scenario.output.history_interval, duration, steps) *
@@ -167,8 +166,8 @@ std::string text_of(const RunEstimate& estimate) {
       "wall time{}: {} with {} {}, for {} steps; {} steps timed now took {:.3g} "
       "ms each, the higher figure has {:g} times that for the contacts that come; what else this "
       "machine does, fast motion and elements that break are not in it{}\n"
-      "disk{}: {} in {:.0f} frames and their tables; the higher figure is without any packing, "
-      "and with {:.0f} contacts at a time\n",
+      "disk{}: {} in {:.0f} frames, energy.csv and reactions.csv; the higher figure is without any "
+      "packing, and with {:.0f} contacts at a time; other tables and checkpoints come on top\n",
       of, range_text(time_text(estimate.wall_time.low), time_text(estimate.wall_time.high)),
       estimate.threads, estimate.threads == 1 ? "thread" : "threads",
       range_text(fmt::format("{:.0f}", estimate.steps.low),

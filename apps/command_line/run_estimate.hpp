@@ -23,7 +23,7 @@ struct RunEstimate {
   /// s: with low steps of that cost; and with high steps of kLaterCost times it.
   Bounds wall_time;
   double frames = 0.0;
-  /// Of all files: frames as they can be packed now, with the contacts of now; and not packed at
+  /// Of frames, energy.csv and reactions.csv: frames as they can be packed now, with the contacts of now; and not packed at
   /// all, with `most_contacts`.
   Bounds bytes;
   double most_contacts = 0.0;  ///< at a time

@@ -46,6 +46,10 @@ int run_resumed(const RunArguments& arguments) {
   const auto began = Progress::Clock::now();
   require_sense(arguments);
   ResumedRun resumed = find_asked(arguments);
+  if (!arguments.until.empty() && !resumed.scenario.stage)
+    throw InputError(fmt::format(
+        "--until {}: the run in {} has no [[stages]], which it names; --to ends at a time",
+        arguments.until, arguments.resume.string()));
   const FoundCheckpoint& checkpoint = resumed.checkpoint;
   share_among(arguments.ranks, resumed.scenario);
   const bool same_folder = arguments.out.empty();

@@ -166,18 +166,22 @@ ProgramCommand add_study(CLI::App& app) {
       ->required();
   study->add_option("--out", arguments->out,
                     "Folder for the runs and results.csv; out/<name of the study> if not given");
-  study->add_option("--jobs", arguments->jobs, "Runs at a time, instead of `jobs` of the study")
-      ->check(CLI::Range(1, 1024));
+  CLI::Option* const jobs =
+      study->add_option("--jobs", arguments->jobs, "Runs at a time, instead of `jobs` of the study")
+          ->check(CLI::Range(1, 1024));
   study
       ->add_option("--threads", arguments->threads,
                    "Threads of each, instead of those of the study")
       ->check(CLI::Range(1, 1024));
   CLI::Option* const parallel =
-      study->add_flag("--parallel", arguments->parallel,
-                      "Make none, but print a line for each, for GNU parallel or sh");
+      study
+          ->add_flag("--parallel", arguments->parallel,
+                     "Make none, but print a line for each, for GNU parallel or sh")
+          ->excludes(jobs);
   CLI::Option* const slurm =
       study->add_flag("--slurm", arguments->slurm, "Make none, but print a script for sbatch")
-          ->excludes(parallel);
+          ->excludes(parallel)
+          ->excludes(jobs);
   CLI::Option* const collect = study
                                    ->add_flag("--collect", arguments->collect,
                                               "Make none, but the table of those that are there")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/enclosed_bodies.hpp"
 
+#include "geometry/primitives/box.hpp"
 #include "geometry/query/surface_query.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,33 @@ using geometry::index_of;
 struct Body {
   std::string name;
   const char* parts;
-  std::vector<Vec3> x;  ///< m
+  std::vector<Vec3> x;  ///< m; none of one that is not there
+  geometry::Box box;    ///< m, around them
+};
+
+/// The surface of a body over its own nodes alone, so that many bodies take no longer than all of
+/// their nodes.
+class OwnSurface {
+ public:
+  OwnSurface(std::span<const geometry::Facet> facets, std::size_t first_node, const Body& body)
+      : surface_({}, renumbered(facets, first_node), body.x.size()), query_(surface_, body.x) {}
+  OwnSurface(const OwnSurface&) = delete;
+
+  bool is_closed() const { return query_.is_closed(); }
+  bool holds(const Vec3& x) const { return query_.side_of(x) == geometry::Side::inside; }
+
+ private:
+  static std::vector<geometry::Facet> renumbered(std::span<const geometry::Facet> facets,
+                                                 std::size_t first_node) {
+    std::vector<geometry::Facet> own(facets.begin(), facets.end());
+    for (geometry::Facet& facet : own)
+      for (geometry::NodeId& node : facet.nodes)
+        node = geometry::id_at<geometry::NodeId>(index_of(node) - first_node);
+    return own;
+  }
+
+  geometry::Surface surface_;
+  geometry::SurfaceQuery query_;
 };
 
 bool is_there(const BuiltMembrane& membrane, const dynamics::Scene& scene) {
@@ -29,18 +56,20 @@ std::vector<Body> bodies_of(const BuiltScene& built, const dynamics::Scene& scen
   std::vector<Body> bodies;
   for (const BuiltMembrane& membrane : built.membranes) {
     const auto first = x.begin() + static_cast<std::ptrdiff_t>(membrane.first_node);
-    Body& body = bodies.emplace_back(
-        Body{(membrane.is_rigid ? "rigid_bodies." : "membranes.") + membrane.name, "nodes", {}});
+    Body& body = bodies.emplace_back(Body{
+        (membrane.is_rigid ? "rigid_bodies." : "membranes.") + membrane.name, "nodes", {}, {}});
     if (is_there(membrane, scene))
       body.x.assign(first, first + static_cast<std::ptrdiff_t>(membrane.nodes));
   }
   std::size_t sphere = 0;
   for (const BuiltGrains& grains : built.grains) {
     Body& body = bodies.emplace_back(
-        Body{(grains.is_rigid ? "rigid_bodies." : "grains.") + grains.name, "grains", {}});
+        Body{(grains.is_rigid ? "rigid_bodies." : "grains.") + grains.name, "grains", {}, {}});
     for (const std::size_t end = sphere + grains.count; sphere < end; ++sphere)
       body.x.push_back(x[index_of(scene.elements.spheres[sphere].nodes[0])]);
   }
+  for (Body& body : bodies)
+    if (!body.x.empty()) body.box = geometry::bounding_box(body.x, 0.0);
   return bodies;
 }
 
@@ -61,13 +90,16 @@ std::vector<std::span<const geometry::Facet>> facets_of(const BuiltScene& built,
   return facets;
 }
 
-void list_enclosed(const std::vector<Body>& bodies, std::size_t closed,
-                   const geometry::SurfaceQuery& membrane, std::vector<EnclosedBody>& enclosed) {
+bool overlap(const geometry::Box& a, const geometry::Box& b) {
+  return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
+void list_enclosed(const std::vector<Body>& bodies, std::size_t closed, const OwnSurface& membrane,
+                   std::vector<EnclosedBody>& enclosed) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (b == closed) continue;
-    const auto inside = std::count_if(bodies[b].x.begin(), bodies[b].x.end(), [&](const Vec3& x) {
-      return membrane.side_of(x) == geometry::Side::inside;
-    });
+    if (b == closed || bodies[b].x.empty() || !overlap(bodies[b].box, bodies[closed].box)) continue;
+    const auto inside = std::count_if(bodies[b].x.begin(), bodies[b].x.end(),
+                                      [&](const Vec3& x) { return membrane.holds(x); });
     if (inside > 0)
       enclosed.push_back({bodies[b].name, bodies[closed].name, bodies[b].parts,
                           static_cast<std::size_t>(inside), bodies[b].x.size()});
@@ -82,16 +114,6 @@ bool is_solid(const MembraneSettings& membrane, const Scenario& scenario) {
   return (body.density || body.mass) && !is_told && body.filling != RigidFilling::shell;
 }
 
-/// m, around points, at least one.
-geometry::Box box_around(const std::vector<Vec3>& x) {
-  geometry::Box box{x.front(), x.front()};
-  for (const Vec3& point : x) {
-    box.lower = box.lower.cwiseMin(point);
-    box.upper = box.upper.cwiseMax(point);
-  }
-  return box;
-}
-
 bool holds(const geometry::Box& outer, const geometry::Box& inner) {
   return (inner.lower.array() >= outer.lower.array()).all() &&
          (inner.upper.array() <= outer.upper.array()).all();
@@ -102,14 +124,22 @@ std::string size_of(const geometry::Box& box) {
   return fmt::format("{:.3g} m x {:.3g} m x {:.3g} m", size[0], size[1], size[2]);
 }
 
-std::string warning_of(const Body& swallowed, const geometry::Box& small, const Body& solid,
-                       const geometry::Box& large) {
+std::string warning_of(const Body& swallowed, const Body& solid) {
   return fmt::format(
       "all {} {} of {} ({}) begin inside of {} ({}), which is a solid: nothing keeps them apart; "
       "is it as large as that? Lengths of a mesh are taken as metres: give it scale (0.001 where "
       "they are millimetres), move them apart, or let it be a shell, filling = \"shell\"",
-      swallowed.x.size(), swallowed.parts, swallowed.name, size_of(small), solid.name,
-      size_of(large));
+      swallowed.x.size(), swallowed.parts, swallowed.name, size_of(swallowed.box), solid.name,
+      size_of(solid.box));
+}
+
+/// Those whose boxes a body's box holds.
+std::vector<std::size_t> bodies_in_box(const std::vector<Body>& bodies, std::size_t large) {
+  std::vector<std::size_t> held;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (b != large && !bodies[b].x.empty() && holds(bodies[large].box, bodies[b].box))
+      held.push_back(b);
+  return held;
 }
 
 }  // namespace
@@ -120,9 +150,8 @@ std::vector<EnclosedBody> enclosed_bodies(const BuiltScene& built, const dynamic
   std::vector<EnclosedBody> enclosed;
   for (std::size_t m = 0; m < facets.size(); ++m) {
     if (facets[m].empty()) continue;
-    const geometry::Surface surface({}, facets[m], scene.state.size());
-    const geometry::SurfaceQuery query(surface, scene.state.position);
-    if (query.is_closed()) list_enclosed(bodies, m, query, enclosed);
+    const OwnSurface surface(facets[m], built.membranes[m].first_node, bodies[m]);
+    if (surface.is_closed()) list_enclosed(bodies, m, surface, enclosed);
   }
   return enclosed;
 }
@@ -134,18 +163,13 @@ std::vector<std::string> warnings_about_solids(const Scenario& scenario, const B
   std::vector<std::string> warnings;
   for (std::size_t m = 0; m < facets.size(); ++m) {
     if (facets[m].empty() || !is_solid(scenario.membranes[m], scenario)) continue;
-    const geometry::Surface surface({}, facets[m], scene.state.size());
-    const geometry::SurfaceQuery query(surface, scene.state.position);
-    if (!query.is_closed()) continue;
-    const geometry::Box large = box_around(bodies[m].x);
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (b == m || bodies[b].x.empty()) continue;
-      const geometry::Box small = box_around(bodies[b].x);
-      if (!holds(large, small)) continue;
-      if (std::all_of(bodies[b].x.begin(), bodies[b].x.end(),
-                      [&](const Vec3& x) { return query.side_of(x) == geometry::Side::inside; }))
-        warnings.push_back(warning_of(bodies[b], small, bodies[m], large));
-    }
+    const std::vector<std::size_t> candidates = bodies_in_box(bodies, m);
+    if (candidates.empty()) continue;
+    const OwnSurface surface(facets[m], built.membranes[m].first_node, bodies[m]);
+    if (!surface.is_closed()) continue;
+    for (const std::size_t b : candidates)
+      if (std::ranges::all_of(bodies[b].x, [&](const Vec3& x) { return surface.holds(x); }))
+        warnings.push_back(warning_of(bodies[b], bodies[m]));
   }
   return warnings;
 }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <limits>
-#include <string>
 
 namespace plekton::apps {
 namespace {

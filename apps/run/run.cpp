@@ -46,7 +46,6 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 namespace plekton::apps {
@@ -668,17 +667,26 @@ class Run {
   std::int64_t next_look_at_grains_ = 1;
 };
 
+/// The key by which a run, or a stage of it, ends at the latest.
+std::string duration_key(const Scenario& scenario) {
+  if (!scenario.stage) return "simulation.duration";
+  const bool is_end = scenario.stage->end.duration == scenario.stage->longest();
+  return scenario.stage->path + (is_end ? ".end.duration" : ".max_duration");
+}
+
 /// @param chosen  s, what "auto" would begin with; infinite if there is nothing to choose it by
 /// @throws InputError
-void require_sound_time_step(const SimulationSettings& settings, double critical, double chosen) {
+void require_sound_time_step(const Scenario& scenario, double critical, double chosen) {
+  const SimulationSettings& settings = scenario.simulation;
   const double asked = *settings.time_step;
+  const std::string stage = scenario.stage ? " as " + scenario.stage->path + " begins" : "";
   Problems problems;
   if (!(asked < dynamics::kLargestStep * critical)) {
     problems.add(settings.time_step_place,
                  fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
-                             "step of this scene, which is {:.6g} s; "
+                             "step of this scene{}, which is {:.6g} s; "
                              "choose less than {:.6g} s, or \"auto\", which begins with {:.4g} s{}",
-                             asked, dynamics::kLargestStep, critical,
+                             asked, dynamics::kLargestStep, stage, critical,
                              dynamics::kLargestStep * critical, chosen,
                              chosen > dynamics::kLargestStep * critical
                                  ? " and gets shorter as more bodies touch"
@@ -686,9 +694,9 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
   }
   if (asked > settings.duration) {
     problems.add(settings.time_step_place,
-                 fmt::format("simulation.time_step: {:.6g} s is longer than the duration of {:.6g} "
-                             "s; choose a shorter one, or \"auto\"",
-                             asked, settings.duration));
+                 fmt::format("simulation.time_step: {:.6g} s is longer than {}, {:.6g} s; choose a "
+                             "shorter one, or \"auto\"",
+                             asked, duration_key(scenario), settings.duration));
   }
   problems.throw_if_any();
 }
@@ -714,17 +722,18 @@ void require_possible_duration(const char* name, double duration, double step) {
       name, duration, duration / step, step, kMostSteps));
 }
 
-void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation) {
+void choose_time_step(const Scenario& scenario, dynamics::Simulation& simulation) {
+  const SimulationSettings& settings = scenario.simulation;
   double chosen = simulation.time_step();
   if (settings.time_step) {
-    require_sound_time_step(settings, simulation.critical_step().dt, chosen);
+    require_sound_time_step(scenario, simulation.critical_step().dt, chosen);
     chosen = *settings.time_step;
   } else if (!std::isfinite(chosen)) {
     throw InputError(
         "nothing in this scene moves freely and meets a contact or a spring, so no time step "
         "can be chosen; give simulation.time_step");
   }
-  require_possible_duration("simulation.duration", settings.duration, chosen);
+  require_possible_duration(duration_key(scenario).c_str(), settings.duration, chosen);
   // A chosen one stays so, also where it is longer than the run.
   if (settings.time_step && chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
@@ -786,7 +795,7 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
     if (!has_step) throw InputError(warning);
     prepared.built.warnings.push_back(std::move(warning));
   }
-  choose_time_step(scenario.simulation, *prepared.simulation);
+  choose_time_step(scenario, *prepared.simulation);
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation,
                                     first_contacts(*prepared.simulation));
   for (std::string& warning : warnings_about(prepared.start, scenario))

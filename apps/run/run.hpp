@@ -12,8 +12,6 @@
 #include <memory>
 #include <optional>
 #include <ostream>
-#include <string>
-#include <vector>
 
 namespace plekton::apps {
 
@@ -34,10 +32,10 @@ std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, Bu
 /// @param step      s
 void require_possible_duration(const char* name, double duration, double step);
 /// @throws InputError as prepare_run()
-void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation);
+void choose_time_step(const Scenario& scenario, dynamics::Simulation& simulation);
 
 /// Builds the scene of a scenario and a simulation of it.
-/// An automatic time step is not longer than the duration.
+/// A chosen time step stays as it is where it is longer than the duration.
 /// @throws InputError also for a time step that is not below kLargestStep of the critical one,
 /// which it names, or longer than the duration, and for more steps than a run can take.
 /// @param hear  told what is being set up, if given

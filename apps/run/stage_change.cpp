@@ -391,7 +391,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
                                                               *next.simulation)),
                              now);
       require_something_free(stage, *next.simulation);
-      choose_time_step(stage.simulation, *next.simulation);
+      choose_time_step(stage, *next.simulation);
     }
   } catch (const geometry::StateMismatch& error) {
     throw InputError(fmt::format("{}: {}", stage.stage->path, error.what()));

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
@@ -249,12 +248,13 @@ class Stages {
     }
     changes_bodies_ = true;
     Array& all = list_of(now_, list.key, entry.place);
+    std::set<std::string> names;
     for (const Value& value : *changes) {
       const Table* const table = table_in(value);
       const std::string* const name = table ? text_of(*table, "name") : nullptr;
       const std::size_t place = name ? place_in(all, "name", *name) : all.size();
       if (place == all.size()) continue;  // the reader complains of what has no name
-      if (place >= list.from_the_start && list.comes[place] == number_) continue;
+      if (!is_to_be_changed(list, place, names.insert(*name).second, value.place)) continue;
       auto* const body = std::get_if<Table>(&all[place].data);
       const std::span<const std::string_view> allowed =
           &list == &rigid_bodies_ ? std::span<const std::string_view>(kBodyKeys)
@@ -264,6 +264,18 @@ class Stages {
       }
       if (&list == &rigid_bodies_) origins_.says_hold[place] = true;
     }
+  }
+
+  /// Whether a table of a stage changes a body, and does not bring it.
+  bool is_to_be_changed(const BodyList& list, std::size_t place, bool is_first,
+                        const Place& where) {
+    if (!is_first) complain(where, list.key, "two tables of this stage have this name");
+    if (list.is_gone[place])
+      complain(where, list.key,
+               "what has this name was taken out and does not come back; give what comes a name of "
+               "its own");
+    const bool comes = place >= list.from_the_start && list.comes[place] == number_;
+    return is_first && !list.is_gone[place] && !comes;
   }
 
   /// Keys of a table replace those from before.

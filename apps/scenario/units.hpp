@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 /// Values with units, as people write them: "5 mm", "20 kPa", "2650 kg/m3", "35 deg".

@@ -157,6 +157,11 @@ Container container_inside(const std::string& name, const BuiltScene& built,
         fmt::format("inside: \"{}\" is not closed; expected a surface without a rim, "
                     "or a box or cylinder in which the grains are placed",
                     name));
+  if (!built.scene.is_there(enclosure.facets.front().nodes[0]))
+    throw InputError(fmt::format(
+        "inside: \"{}\" is not there in this stage; expected grains that come with what "
+        "holds them, or after it",
+        name));
   Container container;
   std::vector<Vec3> corners;
   for (const geometry::Facet& facet : enclosure.facets) {

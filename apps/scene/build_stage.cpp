@@ -72,7 +72,7 @@ void take_presence(const BuiltScene& built, StageBodies& bodies, std::vector<Vec
 /// Of bodies of which the stage says anew what is held.
 void hold_as_told(const Scenario& stage, const BuiltScene& built, StageBodies& bodies) {
   for (const BuiltRigidBody& body : built.rigid_bodies) {
-    if (stage.stage->origins.says_hold[body.table])
+    if (!body.is_absent && stage.stage->origins.says_hold[body.table])
       bodies.held[index_of(body.node)] = stage.rigid_bodies[body.table].held | Held::by_body;
   }
 }

@@ -5,6 +5,7 @@
 #include "geometry/closest/point_segment.hpp"
 #include "geometry/closest/point_triangle.hpp"
 #include "geometry/primitives/node_sets.hpp"
+#include "geometry/query/box_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -34,6 +36,9 @@ struct Found {
   std::vector<NodeId> nodes;    ///< of what it is tied to; none of space
   double distance = kInfinite;  ///< m
 };
+
+/// The nodes of a point, bar or facet that may be tied to.
+using Target = std::vector<NodeId>;
 
 /// N/m, of the bars, beams and sheets around each node, by NodeId; 0 where there are none.
 std::vector<double> stiffness_around(const dynamics::Scene& scene) {
@@ -68,11 +73,7 @@ class TieBuilder {
     if (!is_there(settings.from, "from")) return;
     if (settings.kind >= TieTo::nodes && !is_there(settings.to, "to")) return;
     const std::vector<NodeId> nodes = nodes_of_set(settings.from, "from");
-    if (settings.kind == TieTo::nodes) targets_ = nodes_of_set(settings.to, "to");
-    if (settings.kind == TieTo::surface && !has_surface(settings.to)) return;
-    if (settings.kind == TieTo::surface) find_bars(settings.to);
-    if (settings.kind == TieTo::cable) cable_ = cable_of(settings.to.body);
-    if (settings.kind == TieTo::cable && !cable_) return;
+    if (!list_targets(settings)) return;
     BuiltTies result{settings.name, built_.scene.ties.size(), 0, 0.0, kInfinite, 0.0,
                      settings.each};
     double nearest = kInfinite;
@@ -143,7 +144,7 @@ class TieBuilder {
       case TieTo::nodes:
         return nearest_node(node);
       case TieTo::surface:
-        return nearest_on_surface(node, settings.to);
+        return nearest_on_surface(node);
       case TieTo::body:
         return {dynamics::material_point(follower_at(x, *settings.to.rigid_body)), {}, 0.0};
       case TieTo::cable:
@@ -164,49 +165,81 @@ class TieBuilder {
     return follower;
   }
 
-  Found nearest_node(NodeId node) const {
-    Found nearest;
-    for (const NodeId other : targets_) {
-      const double distance = (place(other) - place(node)).norm();
-      if (other == node || !(distance < nearest.distance)) continue;
-      nearest = {dynamics::material_point(other), {other}, distance};
+  /// What the nodes of a table are tied to: points, segments or triangles, in a tree of boxes.
+  /// @returns whether there was no problem
+  bool list_targets(const TieSettings& settings) {
+    targets_.clear();
+    if (settings.kind == TieTo::nodes) {
+      for (const NodeId node : nodes_of_set(settings.to, "to")) targets_.push_back({node});
+    } else if (settings.kind == TieTo::surface) {
+      if (!has_surface(settings.to)) return false;
+      list_surface(settings.to);
+    } else if (settings.kind == TieTo::cable) {
+      cable_ = cable_of(settings.to.body);
+      if (!cable_) return false;
+      const dynamics::Cable& cable = built_.scene.cables[*cable_];
+      of_cable_ = {cable.nodes.begin(), cable.nodes.end()};
+      for (std::size_t s = 0; s < cable.segments(); ++s)
+        targets_.push_back({cable.nodes[s], cable.nodes[(s + 1) % cable.nodes.size()]});
     }
+    std::vector<geometry::ThickBox> boxes;
+    for (const Target& target : targets_) {
+      std::vector<Vec3> corners;
+      for (const NodeId node : target) corners.push_back(place(node));
+      boxes.push_back({geometry::bounding_box(corners, 0.0), 0.0});
+    }
+    tree_.rebuild(boxes);
+    return true;
+  }
+
+  /// The nearest target, the first of several.
+  /// @param found_at  (number of the target) -> Found, of any distance
+  template <class FoundAt>
+  Found nearest_target(NodeId node, const FoundAt& found_at) const {
+    Found nearest;
+    std::int32_t best = 0;
+    const Vec3& x = place(node);
+    tree_.for_each_nearer({x, x}, nearest.distance, [&](std::int32_t item) {
+      Found found = found_at(static_cast<std::size_t>(item));
+      const bool is_as_near = found.distance == nearest.distance && item < best;
+      if (!(found.distance < nearest.distance) && !is_as_near) return;
+      nearest = std::move(found);
+      best = item;
+    });
     return nearest;
   }
 
-  Found nearest_on_surface(NodeId node, const NodeSetSettings& set) const {
-    Found nearest;
-    const auto look = [&](std::array<NodeId, 3> nodes, const geometry::ClosestPoints& closest) {
-      const bool is_own = std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-      if (is_own || !(closest.distance < nearest.distance)) return;
-      nearest = {MaterialPoint{nodes, closest.weights_b}, {}, closest.distance};
-      for (std::size_t k = 0; k < 3; ++k)
-        if (closest.weights_b[static_cast<int>(k)] > 0.0) nearest.nodes.push_back(nodes[k]);
-    };
-    for_each_facet(set, [&](const std::array<NodeId, 3>& nodes) {
-      look(nodes, geometry::point_triangle(place(node),
-                                           {place(nodes[0]), place(nodes[1]), place(nodes[2])}));
+  Found nearest_node(NodeId node) const {
+    return nearest_target(node, [&](std::size_t target) -> Found {
+      const NodeId other = targets_[target][0];
+      if (other == node) return {};
+      return {dynamics::material_point(other), {other}, (place(other) - place(node)).norm()};
     });
-    for (const std::array<NodeId, 2>& nodes : bars_)
-      look({nodes[0], nodes[1], nodes[0]},
-           geometry::point_segment(place(node), {place(nodes[0]), place(nodes[1])}));
-    return nearest;
+  }
+
+  Found nearest_on_surface(NodeId node) const {
+    return nearest_target(node, [&](std::size_t target) -> Found {
+      const Target& of = targets_[target];
+      if (std::find(of.begin(), of.end(), node) != of.end()) return {};
+      const std::array<NodeId, 3> nodes = {of[0], of[1], of.size() == 3 ? of[2] : of[0]};
+      const geometry::ClosestPoints closest =
+          of.size() == 3 ? geometry::point_triangle(
+                               place(node), {place(nodes[0]), place(nodes[1]), place(nodes[2])})
+                         : geometry::point_segment(place(node), {place(nodes[0]), place(nodes[1])});
+      Found found{MaterialPoint{nodes, closest.weights_b}, {}, closest.distance};
+      for (std::size_t k = 0; k < 3; ++k)
+        if (closest.weights_b[static_cast<int>(k)] > 0.0) found.nodes.push_back(nodes[k]);
+      return found;
+    });
   }
 
   Found nearest_on_cable(NodeId node) const {
-    Found nearest;
-    const dynamics::Cable& cable = built_.scene.cables[*cable_];
-    if (std::find(cable.nodes.begin(), cable.nodes.end(), node) != cable.nodes.end())
-      return nearest;
-    for (std::size_t s = 0; s < cable.segments(); ++s) {
-      const std::array<NodeId, 2> ends = {cable.nodes[s],
-                                          cable.nodes[(s + 1) % cable.nodes.size()]};
+    if (of_cable_.contains(node)) return {};
+    return nearest_target(node, [&](std::size_t target) -> Found {
+      const Target& ends = targets_[target];
       const auto closest = geometry::point_segment(place(node), {place(ends[0]), place(ends[1])});
-      if (!(closest.distance < nearest.distance)) continue;
-      nearest = {
-          CablePlace{*cable_, s, closest.weights_b[1]}, {ends[0], ends[1]}, closest.distance};
-    }
-    return nearest;
+      return {CablePlace{*cable_, target, closest.weights_b[1]}, ends, closest.distance};
+    });
   }
 
   // What there is of bodies.
@@ -242,22 +275,17 @@ class TieBuilder {
     return false;
   }
 
-  template <class Visit>
-  void for_each_facet(const NodeSetSettings& set, const Visit& visit) const {
-    const auto [first, count] = range_of(*surface_of(set), &BuiltMembrane::facets);
-    for (std::size_t i = first; i < first + count; ++i)
-      visit(built_.scene.elements.facets[i].nodes);
-  }
-  /// Those that are no sides of facets.
-  void find_bars(const NodeSetSettings& set) {
-    const auto [first_facet, facets] = range_of(*surface_of(set), &BuiltMembrane::facets);
-    const geometry::NodeSets<2> sides = geometry::set_of_sides(
-        std::span(built_.scene.elements.facets).subspan(first_facet, facets));
-    bars_.clear();
+  /// Facets, and bars that are no sides of facets.
+  void list_surface(const NodeSetSettings& set) {
+    const auto [first_facet, facet_count] = range_of(*surface_of(set), &BuiltMembrane::facets);
+    const auto facets = std::span(built_.scene.elements.facets).subspan(first_facet, facet_count);
+    for (const geometry::Facet& facet : facets)
+      targets_.push_back({facet.nodes.begin(), facet.nodes.end()});
+    const geometry::NodeSets<2> sides = geometry::set_of_sides(facets);
     const auto [first, count] = range_of(*surface_of(set), &BuiltMembrane::cylinders);
     for (std::size_t i = first; i < first + count; ++i) {
       const auto& nodes = built_.scene.elements.cylinders[i].nodes;
-      if (!sides.contains(nodes)) bars_.push_back(nodes);
+      if (!sides.contains(nodes)) targets_.push_back({nodes.begin(), nodes.end()});
     }
   }
 
@@ -340,9 +368,10 @@ class TieBuilder {
   Problems problems_;
   const TieSettings* current_ = nullptr;
   std::vector<double> around_;                 // N/m, by NodeId
-  std::vector<NodeId> targets_;                // of kind nodes
-  std::vector<std::array<NodeId, 2>> bars_;    // of kind surface, beside its facets
+  std::vector<Target> targets_;                // of this table
+  geometry::BoxTree tree_;                     // of them
   std::optional<std::size_t> cable_;           // of kind cable
+  std::set<NodeId> of_cable_;                  // its nodes
   std::map<std::size_t, std::size_t> cables_;  // by membrane
 };
 

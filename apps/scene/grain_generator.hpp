@@ -8,7 +8,6 @@
 #include <functional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace plekton::apps {

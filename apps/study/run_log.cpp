@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <sstream>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace plekton::apps {

@@ -5,7 +5,6 @@
 #include "apps/study/study.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 

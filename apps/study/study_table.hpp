@@ -4,7 +4,6 @@
 #include "apps/study/study_runs.hpp"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace plekton::apps {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace plekton::apps {

@@ -20,9 +20,12 @@ double LateStarts::put_back(const Lengths& lengths, const Moved& moved) {
     const Vec3 along = free_axes(held) - free_axes(held | start.motions);
     const Vec3 about = free_turns(held) - free_turns(held | start.motions);
     const double mass = moved.properties.mass[i];
-    const Vec3 acceleration = along.cwiseProduct(moved.gravity + moved.forces.force[i] / mass);
-    moved.state.velocity[i] -= back * acceleration;
-    energy += part * mass * acceleration.squaredNorm();
+    if (!along.isZero(0.0)) {
+      const Vec3 acceleration = along.cwiseProduct(moved.gravity + moved.forces.force[i] / mass);
+      moved.state.velocity[i] -= back * acceleration;
+      energy += part * mass * acceleration.squaredNorm();
+    }
+    if (about.isZero(0.0)) continue;  // without inertia nothing turns
     const Vec3 torque = about.cwiseProduct(moved.forces.torque[i]);
     if (const std::int32_t body = moved.rigid.body_at(start.node); body >= 0) {
       moved.bodies.push_turning(static_cast<std::size_t>(body), -back * torque);

@@ -8,8 +8,8 @@
 
 namespace plekton::distributed {
 
-/// Whether mpirun, mpiexec or srun has started this process as one of several, so that it may join
-/// the others. Asks the environment alone.
+/// Whether mpirun, mpiexec or srun has started this process, as one of several or, with -n 1, alone,
+/// so that it may join the others. Asks the environment alone.
 bool is_one_of_several();
 
 /// This process as a rank of a job of MPI, from the making of this to its end. One in a process.

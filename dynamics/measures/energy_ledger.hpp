@@ -49,8 +49,6 @@ class EnergyLedger {
   /// What contacts had stored on what was taken out.
   void add_taken_out(double stored) noexcept { taken_out_ += stored; }
 
-  /// Of the last step.
-  double kinetic() const noexcept { return work_.kinetic; }
   /// Without what bodies and contacts tell by themselves: what they lost is to be added.
   Energy energy() const noexcept;
 

@@ -142,8 +142,8 @@ std::string FaultFinder::strongest_action(const Divergence& divergence, const No
     const auto nodes = of_.sheet_facets.nodes(i);
     for (std::size_t corner = 0; corner < 3; ++corner) {
       if (!moves(nodes[corner], node)) continue;
-      action.consider(of_.sheet_facets.corner_force(i, corner).norm(), 0.0,
-                      [&](std::ostream& text) {
+      action.consider(of_.sheet_facets.corner_force(i, corner).norm(),
+                      of_.sheet_facets.corner_torque(i, corner).norm(), [&](std::ostream& text) {
                         text << "sheet facet " << i << " (nodes " << index_of(nodes[0]) << ", "
                              << index_of(nodes[1]) << ", " << index_of(nodes[2]) << ")";
                       });

@@ -8,13 +8,13 @@
 
 namespace plekton::dynamics {
 
-double mean_carried(const Resistance& of, geometry::Positions x) {
+double mean_carried(const Resistance& of, const NodeState& then) {
   MeanMagnitude carried;
   of.contacts.for_each_record(
-      x, [&](const contact::ContactRecord& row) { carried.add(row.force().norm()); });
+      then.position, [&](const contact::ContactRecord& row) { carried.add(row.force().norm()); });
   for (std::size_t i = 0; i < of.bonds.size(); ++i) {
     if (of.bonds.is_broken(i) || !of.scene.is_there(of.scene.bonds[i].nodes[0])) continue;
-    const BondForces forces = of.yielding_bonds.forces_of(i, of.bonds, of.scene.state);
+    const BondForces forces = of.bonds.forces_of(i, then);
     carried.add(elementary::hypot(forces.tension, forces.shear.norm()));
   }
   for (std::size_t i = 0; i < of.ties.size(); ++i)

@@ -23,7 +23,7 @@ class MeanMagnitude {
 
 /// N, mean magnitude of the forces between bodies and within structures: of contacts, bonds and
 /// ties, and of sheet facets on their corners. What is broken or not there does not count.
-/// @param x  m, where the nodes were when the forces of the last step were found
-double mean_carried(const Resistance& of, geometry::Positions x);
+/// @param then  the nodes when the forces of the last step were found
+double mean_carried(const Resistance& of, const NodeState& then);
 
 }  // namespace plekton::dynamics

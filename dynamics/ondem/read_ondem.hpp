@@ -20,7 +20,7 @@ class OndemError : public std::runtime_error {
 /// membranes, planes and the state are read, where they are there. Bodies of shapes that the draft
 /// does not have yet are `other`.
 /// @throws OndemError also where a number that says how something moves or is large is not finite,
-///         and where what refers to something else refers to nothing
+///         and where a contact refers to a body that is not there
 OndemScene read_ondem(const std::filesystem::path& file);
 
 /// The same from memory. @param name  what messages call it

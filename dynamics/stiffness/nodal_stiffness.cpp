@@ -30,8 +30,9 @@ void put_on_bodies(std::span<SpringEnd> ends, const RigidNodes* rigid) noexcept 
     for (std::size_t j = 0; j < i; ++j) {
       if (ends[j].node != ends[i].node || ends[j].weight == 0.0) continue;
       const double weight = ends[j].weight + ends[i].weight;
-      const Vec3 lever = (ends[j].weight * ends[j].lever + ends[i].weight * ends[i].lever) / weight;
-      ends[j] = {ends[j].node, weight, ends[j].arm, lever};
+      if (weight != 0.0)  // else the body is at both ends of the spring, which does nothing to it
+        ends[j].lever = (ends[j].weight * ends[j].lever + ends[i].weight * ends[i].lever) / weight;
+      ends[j].weight = weight;
       ends[i].weight = 0.0;
       break;
     }

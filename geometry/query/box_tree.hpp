@@ -76,6 +76,13 @@ class BoxTree {
   template <class Visit>
   void for_each_near(const Box& box, Visit visit) const;
 
+  /// Calls visit(item) for items whose boxes, radius left out, are no further from another box than
+  /// a length: about the nearest first, so that visits which lower the length find the nearest item
+  /// in O(log n), if few are as near as it.
+  /// @param least  m; infinite at first
+  template <class Visit>
+  void for_each_nearer(const Box& from, const double& least, Visit visit) const;
+
  private:
   /// The middle of a box in the tree's own units, for sorting.
   struct Centre {
@@ -123,6 +130,39 @@ void BoxTree::for_each_near(const Box& box, Visit visit) const {
       else
         open[count++] = &node(child);
     }
+  }
+}
+
+template <class Visit>
+void BoxTree::for_each_nearer(const Box& from, const double& least, Visit visit) const {
+  if (is_empty()) return;
+  struct Entry {
+    double squared;  ///< m²
+    Child child;
+  };
+  std::array<Entry, kMostEntries> open;
+  std::size_t count = 0;
+  const auto is_beyond = [&least](double squared) {
+    return squared * (1.0 - 1e-12) > least * least;
+  };
+  const auto open_children = [&](const Node& of) {
+    const Row squared = of.squared_distances(from);
+    const std::size_t first = count;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (!of.child[lane].exists() || is_beyond(squared[lane])) continue;
+      std::size_t k = count++;
+      for (; k > first && open[k - 1].squared < squared[lane]; --k) open[k] = open[k - 1];
+      open[k] = {squared[lane], of.child[lane]};
+    }
+  };
+  open_children(root());
+  while (count > 0) {
+    const Entry entry = open[--count];
+    if (is_beyond(entry.squared)) continue;
+    if (entry.child.is_item())
+      visit(entry.child.item());
+    else
+      open_children(node(entry.child));
   }
 }
 

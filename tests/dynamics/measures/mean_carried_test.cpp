@@ -51,7 +51,7 @@ class MeanCarried : public testing::Test {
     contacts->advance(scene_.state.motion(), scene_.planes, 0.0, pool, forces);
     push_ = contacts->on_plane(0).force.norm();
     return mean_carried({scene_, surface, *contacts, bonds, yielding, sheets, ties, loads, rigid},
-                        scene_.state.position);
+                        scene_.state);
   }
 
   Scene scene_;

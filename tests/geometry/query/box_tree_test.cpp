@@ -55,6 +55,29 @@ TEST(BoxTree, FindsEveryBoxThatIsNearForAnyNumberOfBoxes) {
   }
 }
 
+TEST(BoxTree, FindsTheNearestItemAndLooksAtFewOthers) {
+  test::Random random(3);
+  for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 5, 17, 3000}) {
+    const auto boxes = random_boxes(random, count);
+    BoxTree tree;
+    tree.rebuild(boxes);
+    std::size_t looks = 0;
+    for (int trial = 0; trial < 50; ++trial) {
+      const Vec3 at = random.in_cube(6.0);
+      const Box from{at, at};
+      double least = std::numeric_limits<double>::infinity();
+      tree.for_each_nearer(from, least, [&](std::int32_t item) {
+        ++looks;
+        least = std::min(least, distance(boxes[static_cast<std::size_t>(item)].box, from));
+      });
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const ThickBox& box : boxes) nearest = std::min(nearest, distance(box.box, from));
+      ASSERT_EQ(least, nearest);
+    }
+    EXPECT_LT(looks, 50 * 50);
+  }
+}
+
 TEST(BoxTree, FindsThemAfterTheyHaveMoved) {
   test::Random random(2);
   BoxTree tree;
