@@ -49,15 +49,15 @@ double largest_interaction_range(std::span<const geometry::Sphere> spheres,
   return reach;
 }
 
-/// By StructureId: its nodes are in a group.
+/// By StructureId: all its nodes are in a group.
 std::vector<char> rigid_structures(const geometry::Surface& surface,
                                    const geometry::ExclusionGroups& groups) {
-  std::vector<char> are_rigid(surface.structure_count(), 0);
+  std::vector<char> are_rigid(surface.structure_count(), 1);
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto node = geometry::id_at<NodeId>(n);
     const auto structure = surface.structure_of(node);
-    if (structure != geometry::StructureId{-1} && groups.group_of(node) >= 0)
-      are_rigid[index_of(structure)] = 1;
+    if (structure != geometry::StructureId{-1} && groups.group_of(node) < 0)
+      are_rigid[index_of(structure)] = 0;
   }
   return are_rigid;
 }

@@ -3,6 +3,7 @@
 
 #include "contact/law/hertz_mindlin.hpp"
 
+#include <cmath>
 #include <iosfwd>
 #include <numbers>
 
@@ -118,7 +119,7 @@ struct DmtAdhesion : LawDefaults {
   }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     HertzMindlin::accumulate_history(history.elastic, other.elastic, share);
-    history.overlap += share * other.overlap;
+    history.overlap += std::abs(share) * other.overlap;
   }
 
  private:

@@ -82,13 +82,19 @@ class MaterialPairs {
   const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }
 
  private:
-  /// Of bodies of a size: what a law makes of two materials.
+  /// Of bodies of some sizes and shapes: what a law makes of two materials, in the first step and
+  /// later.
   void add(const AnyLaw::Properties& properties, MaterialId a, MaterialId b,
            geometry::BitHash& hash) const {
-    const Parameters of_pair = AnyLaw::combine(properties, {at(a), 1.0, 1.0, Shape::sphere},
-                                               {at(b), 1.0, 1.0, Shape::sphere});
-    for (const char c : of_pair.law->name) hash.add(std::uint64_t{static_cast<unsigned char>(c)});
-    for (std::size_t i = 0; i < of_pair.law->parameter_numbers; ++i) hash.add(of_pair.numbers[i]);
+    for (const char c : properties.law->name)
+      hash.add(std::uint64_t{static_cast<unsigned char>(c)});
+    AnyLaw::Properties later = properties;
+    hash.add(std::uint64_t{AnyLaw::end_start(later)});
+    for (const Shape shape : {Shape::sphere, Shape::flat}) {
+      const Parameters of_pair =
+          AnyLaw::combine(properties, {at(a), 1.0, 1.0, Shape::sphere}, {at(b), 0.5, 1.0, shape});
+      for (std::size_t i = 0; i < of_pair.law->parameter_numbers; ++i) hash.add(of_pair.numbers[i]);
+    }
   }
 
   std::vector<Material> materials_;

@@ -335,9 +335,9 @@ void PlaneContacts::find_actions() const {
       sums_[static_cast<std::size_t>(pieces_.planes()[i])].add(actions_of_pieces_[i]);
   }
   if (SharedMotion* const motion = pieces_.motion()) {
-    const std::vector<ActionSums> of_own = sums_;
+    own_sums_.swap(sums_);
     sums_.assign(actions_.size(), {});
-    motion->add_up(std::span(of_own), std::span(sums_));
+    motion->add_up(std::span(std::as_const(own_sums_)), std::span(sums_));
   }
   for (std::size_t plane = 0; plane < sums_.size(); ++plane) actions_[plane] = sums_[plane].total();
 }

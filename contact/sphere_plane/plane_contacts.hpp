@@ -201,7 +201,8 @@ class PlaneContacts {
   BlockTotals totals_;                          ///< of all pieces
   mutable std::vector<PlaneAction> actions_;    ///< by plane, of all pieces
   mutable bool are_actions_known_ = true;
-  mutable std::vector<ActionSums> sums_;  ///< by plane
+  mutable std::vector<ActionSums> sums_;      ///< by plane
+  mutable std::vector<ActionSums> own_sums_;  ///< likewise, of this rank
   /// Of what others compute.
   enum class Known : std::uint8_t { nothing, gaps, all };
   mutable Known known_ = Known::all;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -94,11 +95,17 @@ class SharedMotion {
   void add_up(std::span<const Sums> of_own, std::span<Sums> sums) {
     static_assert(std::is_trivially_copyable_v<Sums> && sizeof(Sums) % geometry::Ranks::kUnit == 0);
     const auto count = static_cast<std::size_t>(ranks_->count());
-    const std::vector<std::size_t> sizes(count, of_own.size_bytes());
-    std::vector<Sums> of_ranks(count * of_own.size());
-    std::ranges::copy(of_own, of_ranks.begin() + ranks_->rank() * std::ssize(of_own));
-    ranks_->gather(std::as_writable_bytes(std::span(of_ranks)), sizes);
-    for (std::size_t i = 0; i < of_ranks.size(); ++i) sums[i % sums.size()] += of_ranks[i];
+    const std::size_t bytes = of_own.size_bytes();
+    sizes_.assign(count, bytes);
+    sums_.resize(count * bytes);
+    std::memcpy(sums_.data() + static_cast<std::size_t>(ranks_->rank()) * bytes, of_own.data(),
+                bytes);
+    ranks_->gather(sums_, sizes_);
+    for (std::size_t i = 0; i < count * of_own.size(); ++i) {
+      Sums of_rank;
+      std::memcpy(&of_rank, sums_.data() + i * sizeof(Sums), sizeof(Sums));
+      sums[i % sums.size()] += of_rank;
+    }
   }
 
  private:
@@ -125,6 +132,9 @@ class SharedMotion {
   Messages sent_;
   Messages received_;
   std::vector<std::byte> room_;
+  // Of add_up().
+  std::vector<std::size_t> sizes_;
+  std::vector<std::byte> sums_;
 };
 
 }  // namespace plekton::contact

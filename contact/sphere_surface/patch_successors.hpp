@@ -3,7 +3,9 @@
 
 #include "contact/sphere_surface/patch.hpp"
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact {
@@ -29,7 +31,13 @@ class PatchSuccessors {
                                       const PatchFinder& finder);
 
  private:
+  using Minimum = std::pair<Feature, std::uint32_t>;  ///< and its patch
+
+  void list_minima(std::span<const Patch> patches, const PatchFinder& finder);
+  std::uint32_t patch_with_minimum(Feature feature) const;
+
   const geometry::Surface* surface_;
+  std::vector<Minimum> minima_;  ///< of this step's patches, ascending
   std::vector<std::uint32_t> successors_;
 };
 

@@ -62,7 +62,9 @@ std::array<geometry::FeatureNodes, 2> PairTerms::witness_features(
   return {sides.first(a, b), sides.second(a, b)};
 }
 
-void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
+void PairTerms::rebuild(
+    std::span<const geometry::CellPair> pairs,
+    geometry::FunctionRef<std::uint32_t(std::int32_t, std::int32_t)> spring_of) {
   const geometry::ProductFeatures& features = features_.find(*surface_, pairs);
   terms_.clear();
   holders_.clear();
@@ -80,12 +82,10 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   clearances_.clear();
   joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, {}});
-  const std::size_t count = surface_->structure_count();
   for (const geometry::FeaturePair& pair : features.pairs) {
     PairTerm term = pair_term(*surface_, pair);
-    const auto first = index_of(surface_->structure_of(term.a.ids[0]));
-    const auto second = index_of(surface_->structure_of(term.b.ids[0]));
-    term.spring = static_cast<std::uint32_t>(first * count - first * (first + 1) / 2 + second);
+    term.spring = spring_of(static_cast<std::int32_t>(surface_->structure_of(term.a.ids[0])),
+                            static_cast<std::int32_t>(surface_->structure_of(term.b.ids[0])));
     for (std::uint32_t h = 0; h < term.holder_count; ++h) {
       Holder& holder = holders_[term.first_holder + h];
       const auto nodes = surface_->nodes_of(pairs[holder.pair].a);
@@ -132,15 +132,17 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   terms_are_new_ = false;
 }
 
-/// What there is to know of all springs, of which there may be many more than terms.
+/// What there is to know of the springs of this list, whatever others there are.
 void PairTerms::prepare_springs(std::span<const NormalSpring> springs) {
   largest_range_ = 0.0;
-  for (const NormalSpring& spring : springs)
-    largest_range_ = std::max(largest_range_, spring.range());
+  bool any_attracts = false;
+  for (const PairTerm& term : terms_) {
+    largest_range_ = std::max(largest_range_, springs[term.spring].range());
+    any_attracts = any_attracts || springs[term.spring].attracts();
+  }
   attracts_.clear();
   attractions_.clear();
-  if (std::none_of(springs.begin(), springs.end(), [](const auto& of) { return of.attracts(); }))
-    return;
+  if (!any_attracts) return;
   for (const NormalSpring& spring : springs) attracts_.push_back(spring.attracts());
   attractions_.resize(terms_.size());
 }
@@ -450,6 +452,10 @@ void PairTerms::exchange(const geometry::StateArchive& archive) {
     is_new ? clearances_.clear() : clearances_.reset(term_of_pair_.size(), 0.0);
   if (is_new) return;
   clearances_.exchange(archive);
+  archive("in_range", acting_);
+  archive.require(std::ranges::adjacent_find(acting_, std::greater_equal()) == acting_.end() &&
+                      (acting_.empty() || acting_.back() < terms_.size()),
+                  "in_range");
   archive.fixed("is_near", is_near_, "pairs of cells");
   for (std::size_t i = 0; i < is_near_.size(); ++i)
     archive.require(is_near_[i] == 0 || clearances_.may_be_within(i, 0.0), "is_near");

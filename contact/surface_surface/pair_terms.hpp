@@ -8,6 +8,7 @@
 #include "contact/surface_surface/product_complex.hpp"
 #include "contact/surface_surface/term_parts.hpp"
 #include "contact/surface_surface/wrapped_joints.hpp"
+#include "geometry/base/function_ref.hpp"
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/critical/product_features.hpp"
 
@@ -54,8 +55,10 @@ class PairTerms {
 
   explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
 
-  /// @param pairs  sorted, each once
-  void rebuild(std::span<const geometry::CellPair> pairs);
+  /// @param pairs      sorted, each once
+  /// @param spring_of  (lower structure, other one) -> its place among the springs of evaluate()
+  void rebuild(std::span<const geometry::CellPair> pairs,
+               geometry::FunctionRef<std::uint32_t(std::int32_t, std::int32_t)> spring_of);
 
   /// Finds which terms are in range, and their forces.
   /// @param springs  by the rows of the upper triangle of pairs of structures

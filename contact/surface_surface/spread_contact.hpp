@@ -216,9 +216,9 @@ struct SpreadContact {
   }
 
   /// All but its pair of cells. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+  void exchange(geometry::RowFields& row, const StructurePairs& pairs,
                 const geometry::Surface& surface) {
-    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    const AnyLaw::Functions* const law = pairs.exchange(row, structure_pair);
     row("patch", patch);
     sides.exchange(row, "are_crossed");
     row("is_of_bar", is_of_bar);

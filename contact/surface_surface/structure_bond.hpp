@@ -87,9 +87,9 @@ struct StructureBond {
   }
 
   /// All but the place of its cells in a list. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+  void exchange(geometry::RowFields& row, const StructurePairs& pairs,
                 const geometry::Surface& surface) {
-    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    const AnyLaw::Functions* const law = pairs.exchange(row, structure_pair);
     row("cell_a", cells.a);
     row("cell_b", cells.b);
     row.require(has(surface, cells), "cell_a");

@@ -5,6 +5,7 @@
 #include "contact/law/any_law.hpp"
 #include "contact/surface_surface/mean_overlap.hpp"
 #include "contact/surface_surface/patch_side.hpp"
+#include "contact/surface_surface/structure_pairs.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/contact_state.hpp"
 
@@ -14,41 +15,6 @@
 #include <span>
 
 namespace plekton::contact::structure {
-
-/// Two structures that may touch, or one that may touch itself.
-struct StructurePair {
-  AnyLaw::Parameters parameters;  ///< without the attraction
-  double radius_first;            ///< m, of the lower structure
-  double radius_second;
-  double attraction;  ///< N, of one contact
-  /// What the parameters are of.
-  struct Damped {
-    AnyLaw::Properties properties;
-    std::array<Body, 2> bodies;     ///< the lower structure first
-    std::array<bool, 2> are_rigid;  ///< their nodes have the mass of all
-  };
-  std::shared_ptr<const Damped> damped;  ///< by the mass of what is rigid; null of any other pair
-
-  /// Of a part of a contact, with that part of the mass of what is rigid: springs side by side
-  /// carry it together, and so do their dashpots. What deforms has its mass in the nodes there.
-  /// @param part  of its contacts; what is not between 0 and 1 counts as the whole
-  AnyLaw::Parameters of_part(double part) const {
-    if (damped == nullptr || !(part > 0.0 && part < 1.0)) return parameters;
-    std::array<Body, 2> parts = damped->bodies;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (damped->are_rigid[i]) parts[i].mass *= part;
-    return AnyLaw::without_attraction(AnyLaw::combine(damped->properties, parts[0], parts[1]));
-  }
-};
-
-/// Which structures something is of. @returns their law. @throws geometry::StateMismatch
-inline const AnyLaw::Functions* exchange_pair(geometry::RowFields& row, std::uint32_t& pair,
-                                              std::span<const StructurePair> pairs) {
-  row("structure_pair", pair);
-  if (pair >= pairs.size())
-    throw geometry::StateMismatch("the state has more structures than there are here");
-  return pairs[pair].parameters.law;
-}
 
 /// A part of the contact region of two structures that hangs together: one contact, as far as the
 /// law is concerned, as stiff as the contacts it counts.
@@ -171,9 +137,9 @@ struct StructurePatch {
   }
 
   /// @param pairs  of structures. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+  void exchange(geometry::RowFields& row, const StructurePairs& pairs,
                 const geometry::Surface& surface) {
-    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    const AnyLaw::Functions* const law = pairs.exchange(row, structure_pair);
     row("energy", energy);
     row("attraction_energy", attraction_energy);
     row("elastic_force", elastic_force);

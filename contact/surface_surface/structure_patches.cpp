@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/structure_patches.hpp"
 
-#include "contact/base/bodies.hpp"
-#include "contact/surface_surface/mean_node_masses.hpp"
-
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace plekton::contact::structure {
@@ -32,8 +30,10 @@ double StructurePatches::rebuild(std::span<const geometry::CellPair> pairs,
     if (known && old->patch >= 0) lives_[static_cast<std::size_t>(old->patch)] = 1;
   }
   pairs_.swap(listed_);
-  if (structure_pairs_.empty()) make_structure_pairs(materials);
-  terms_.rebuild(pairs);
+  structure_pairs_.know_structures(*surface_, materials);
+  terms_.rebuild(pairs, [&](std::int32_t first, std::int32_t second) {
+    return structure_pairs_.place_of(first, second, materials.pairs);
+  });
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (lives_[i] != 0) continue;
@@ -43,70 +43,14 @@ double StructurePatches::rebuild(std::span<const geometry::CellPair> pairs,
   return lost;
 }
 
-// Which structures may touch, and with which parameters.
-
-std::vector<StructurePair> StructurePatches::find_structure_pairs(
-    const ContactMaterials& materials) const {
-  std::vector<StructurePair> structure_pairs;
-  structure_pairs.reserve(surface_->structure_count() * (surface_->structure_count() + 1) / 2);
-  const std::vector<double> masses = materials.structure_masses.empty()
-                                         ? mean_node_masses(*surface_, materials.masses)
-                                         : materials.structure_masses;
-  const auto part = [&](std::size_t i) {
-    const auto id = geometry::id_at<geometry::StructureId>(i);
-    return BodyPart{materials.of_structures[i], surface_->radius(id), masses[i],
-                    shape_of(*surface_, id)};
-  };
-  const auto body = [&](const BodyPart& of) {
-    return Body{materials.pairs.at(of.material), of.radius, of.mass, of.shape};
-  };
-  const auto is_rigid = [&](std::size_t i) { return i < are_rigid_.size() && are_rigid_[i] != 0; };
-  for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
-    for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-      const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      StructurePair pair{AnyLaw::without_attraction(parameters), part(i).radius, part(k).radius,
-                         AnyLaw::attraction(parameters), nullptr};
-      if ((is_rigid(i) || is_rigid(k)) &&
-          AnyLaw::normal_damping(pair.parameters, -pair.radius_first) > 0.0) {
-        pair.damped = std::make_shared<const StructurePair::Damped>(
-            StructurePair::Damped{materials.pairs.properties(part(i).material, part(k).material),
-                                  {body(part(i)), body(part(k))},
-                                  {is_rigid(i), is_rigid(k)}});
-      }
-      structure_pairs.push_back(std::move(pair));
-    }
-  }
-  return structure_pairs;
-}
-
-void StructurePatches::make_structure_pairs(const ContactMaterials& materials) {
-  structure_pairs_ = find_structure_pairs(materials);
-  find_glues();
-  springs_.reserve(structure_pairs_.size());
-  for (const StructurePair& structure_pair : structure_pairs_) {
-    springs_.push_back(NormalSpring::of<AnyLaw>(
-        structure_pair.parameters, structure_pair.radius_first + structure_pair.radius_second,
-        &structure_pair.attraction));
-  }
-}
-
 void StructurePatches::take_parameters(const ContactMaterials& materials) {
-  if (structure_pairs_.empty()) return;
-  std::vector<StructurePair> structure_pairs = find_structure_pairs(materials);
-  for (std::size_t i = 0; i < structure_pairs.size(); ++i)
-    structure_pairs_[i] = structure_pairs[i];  // springs point there
-  find_glues();
-}
-
-void StructurePatches::find_glues() {
-  glues_ = std::ranges::any_of(
-      structure_pairs_, [](const StructurePair& of) { return AnyLaw::cements(of.parameters); });
+  structure_pairs_.take_parameters(*surface_, materials);
 }
 
 // Which pairs of cells are one patch, and where their forces act.
 
 void StructurePatches::find(const Motion& motion, geometry::ThreadPool& pool) {
-  terms_.evaluate(springs_, motion, pool);
+  terms_.evaluate(structure_pairs_.springs(), motion, pool);
   previous_.clear();
   for (const StructurePatch& patch : patches_) {
     const double last_power =
@@ -394,8 +338,10 @@ double StructurePatches::normal_energy(const geometry::Surface& surface, const M
   std::vector<geometry::CellPair> listed;
   for (const PairOfCells& pair : pairs_) listed.push_back(pair.cells);
   StructurePatches there(surface);
-  there.terms_.rebuild(listed);
-  there.terms_.evaluate(springs_, at, pool);
+  there.terms_.rebuild(listed, [this](std::int32_t first, std::int32_t second) {
+    return structure_pairs_.place_of(first, second);
+  });
+  there.terms_.evaluate(structure_pairs_.springs(), at, pool);
   double energy = 0.0;
   for (std::size_t part = 0; part < there.terms_.parts().count(); ++part)
     energy += there.energy_of(part).value();

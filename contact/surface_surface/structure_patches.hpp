@@ -89,7 +89,7 @@ class StructurePatches {
   StructurePatches& operator=(StructurePatches&&) = default;
 
   /// @param are_rigid  by StructureId: all nodes have the mass of the whole; empty: none is
-  void set_rigid(std::vector<char> are_rigid) { are_rigid_ = std::move(are_rigid); }
+  void set_rigid(std::vector<char> are_rigid) { structure_pairs_.set_rigid(std::move(are_rigid)); }
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @returns the energy (J) lost with patches that left the list
@@ -131,7 +131,7 @@ class StructurePatches {
 
   void probe(StructureProbe& probe) const {
     if (patches_.empty()) return probe.clear();
-    probe.begin(terms_, springs_);
+    probe.begin(terms_, structure_pairs_.springs());
   }
 
   /// Nothing is listed and nothing touches.
@@ -142,15 +142,14 @@ class StructurePatches {
   const geometry::Surface& surface() const noexcept { return *surface_; }
   const PairTerms& terms() const noexcept { return terms_; }
   const NormalSpring& spring_of(const PairTerm& term) const noexcept {
-    return springs_[term.spring];
+    return structure_pairs_.springs()[term.spring];
   }
-  /// All structures that may ever meet, by the rows of the upper triangle.
-  std::span<const StructurePair> structure_pairs() const noexcept { return structure_pairs_; }
+  const StructurePairs& structure_pairs() const noexcept { return structure_pairs_; }
   const StructurePair& structure_pair_of(const StructurePatch& patch) const noexcept {
     return structure_pairs_[patch.structure_pair];
   }
   /// Whether any two structures stick where they come to touch.
-  bool glues() const noexcept { return glues_; }
+  bool glues() const noexcept { return structure_pairs_.glues(); }
   double history_energy(const StructurePatch& patch) const {
     return patch.history_energy(structure_pair_of(patch));
   }
@@ -183,9 +182,6 @@ class StructurePatches {
     bool is_torn;
   };
 
-  std::vector<StructurePair> find_structure_pairs(const ContactMaterials& materials) const;
-  void make_structure_pairs(const ContactMaterials& materials);
-  void find_glues();
   void hand_to_sides(const PairOfCells& pair,
                      const std::array<geometry::FeatureNodes, 2>& witness_features,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
@@ -203,11 +199,8 @@ class StructurePatches {
   void hand_on_number(const Predecessor& old, std::span<const PatchSuccessor> successors);
 
   const geometry::Surface* surface_;
-  std::vector<char> are_rigid_;  ///< by StructureId
   std::vector<PairOfCells> pairs_;
-  std::vector<StructurePair> structure_pairs_;
-  std::vector<NormalSpring> springs_;  ///< of the structure pairs
-  bool glues_ = false;
+  StructurePairs structure_pairs_;
   PairTerms terms_;
   std::vector<TermPlaces> places_;
   std::vector<StructurePatch> patches_;

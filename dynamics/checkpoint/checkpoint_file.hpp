@@ -18,7 +18,7 @@
 namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
-constexpr int kCheckpointVersion = 14;
+constexpr int kCheckpointVersion = 15;
 
 inline constexpr std::string_view kUnknownRevision = "unknown";
 

@@ -3,6 +3,7 @@
 
 #include "dynamics/simulation.hpp"
 #include "tests/stress/findings.hpp"
+#include "tests/support/sanitized.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -20,7 +21,7 @@ struct ExaminationOptions {
   /// Only what shows this fault is looked at, as a shrinking scene needs it; nothing: all.
   std::optional<Fault> only;
   /// s, of processor time, after which a scene hangs.
-  int processor_time = 120;
+  int processor_time = 120 * test::kSlowedDown;
   /// Called after every step, so that a test can do harm to a run.
   std::function<void(dynamics::Simulation&, Part)> disturb;
 };

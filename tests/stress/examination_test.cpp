@@ -63,7 +63,9 @@ const std::vector<Harm>& harms() {
   static const std::vector<Harm> all = {
       {"ASignal", Fault::crash,
        [](dynamics::Simulation& simulation, Part) {
-         if (at_step(simulation, 9)) std::raise(SIGSEGV);
+         if (!at_step(simulation, 9)) return;
+         std::signal(SIGSEGV, SIG_DFL);  // sanitizers have handlers of their own
+         std::raise(SIGSEGV);
        }},
       {"AnEndlessLoop", Fault::hang,
        [](dynamics::Simulation& simulation, Part) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/support/sanitized.hpp"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -10,13 +12,6 @@
 // this in exactly one source of an executable. Eigen takes the room of its matrices from malloc. A
 // sanitizer has both of its own, and tells what it gives out; without glibc only operator new is
 // counted.
-#if defined(__has_feature)  // clang
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PLEKTON_IS_SANITIZED 1
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PLEKTON_IS_SANITIZED 1
-#endif
 #if defined(PLEKTON_IS_SANITIZED)
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*given)(const volatile void*,
                                                                        std::size_t),

@@ -52,6 +52,25 @@ TEST(EnclosedBodies, AreCountedByGrainsAndNodes) {
             "inside at the start: 2 of 3 grains of grains.some in membranes.box\n");
 }
 
+TEST(EnclosedBodies, AreNoGrainsThatComeBeforeWhatHoldsThem) {
+  std::string scene(kScene);
+  scene.erase(scene.find("duration"), std::string_view("duration = \"1 ms\"\n").size());
+  scene.erase(scene.find("[[grains]]"));
+  const std::size_t box = scene.rfind("[[membranes]]");
+  const std::string bag = scene.substr(box);
+  const std::string grains =
+      "[[grains]]\nname = \"held\"\nmaterial = \"stuff\"\nradius = 1e-3\ncount = 5\n"
+      "inside = \"box\"\n";
+  const std::string text = scene.substr(0, box) + grains +
+                           "[[stages]]\nname = \"a\"\nend = { duration = 1e-3 }\n"
+                           "[[stages]]\nname = \"b\"\nend = { duration = 1e-3 }\n[[stages." +
+                           bag.substr(2);
+
+  EXPECT_THAT([&] { prepare_run(parse_scenario(text, "scene.toml").stages[0]); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("inside: \"box\" is not there in this stage")));
+}
+
 TEST(EnclosedBodies, AreNoneWithoutAClosedMembrane) {
   const std::string text(kScene);
   const std::size_t box = text.rfind("[[membranes]]");

@@ -304,6 +304,35 @@ TEST(StageTable, HasTheBodiesOfAllStagesAndKnowsWhichAreThere) {
             dynamics::Held::along_x | dynamics::Held::along_y);
 }
 
+// The one became free and fell, unseen; of the others the second was passed over.
+TEST(StageTable, RefusesBodiesThatWereTakenOutAndTwoOfOneName) {
+  const std::string lid =
+      "name = \"lid\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, 1], radius = 0.1 "
+      "}]\ndensity = 2600\n";
+  const std::string stages =
+      "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n[[stages]]\nname = \"b\"\n"
+      "end = { duration = 1 }\n";
+  const std::string gone =
+      "[[rigid_bodies]]\n" + lid + stages + "remove = [{ rigid_body = \"lid\" }]\n";
+
+  EXPECT_THAT(
+      [&] {
+        parsed(gone + "[[stages]]\nname = \"c\"\nend = { duration = 1 }\n" +
+               "[[stages.rigid_bodies]]\nname = \"lid\"\nhold = \"\"\n");
+      },
+      ThrowsMessage<InputError>(HasSubstr("stages.c.rigid_bodies: what has this name was taken out "
+                                          "and does not come back")));
+  EXPECT_THAT(
+      [&] { parsed(gone + "[[stages.rigid_bodies]]\nname = \"lid\"\nhold = \"x\"\n"); },
+      ThrowsMessage<InputError>(HasSubstr("stages.b.rigid_bodies: what has this name was taken")));
+  EXPECT_THAT(
+      [&] {
+        parsed(stages + "[[stages.rigid_bodies]]\n" + lid + "[[stages.rigid_bodies]]\n" + lid);
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("stages.b.rigid_bodies: two tables of this stage have this name")));
+}
+
 TEST(StageTable, TakesReactionsOutWithWhatTheyAreOfAndKeepsTheirColumns) {
   const Scenario scenario = parsed(
       "[[output.reactions]]\nkind = \"plane\"\nplane = \"floor\"\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/structure_stiffness.hpp"
 
+#include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/linear_algebra.hpp"
 #include "tests/support/resisting_scene.hpp"
@@ -122,6 +123,20 @@ TEST(StructureStiffness, BringsEachNodeUpToTheStiffestMotionTimesItsMass) {
     EXPECT_LE(sum, (1.0 + 1e-4) * expected);
   }
   EXPECT_GT(more, 0);
+}
+
+/// What is in range was forgotten: the sleeve had no stiffness until the next step.
+TEST(StructureStiffness, IsThereWithAStateThatIsReadBack) {
+  Scene scene;
+  add_sleeve(scene, 1.0, Vec3::Zero());
+  dynamics::Simulation whole(scene, {});
+  for (int i = 0; i < 3; ++i) whole.step();
+  dynamics::Simulation resumed(scene, {});
+  resumed.restore(whole.snapshot());
+
+  // Each goes on with the products of the power iteration where it was.
+  const double limit = whole.present_critical_step().dt;
+  EXPECT_NEAR(resumed.present_critical_step().dt, limit, kIteration * limit);
 }
 
 TEST(StructureStiffness, OfBodiesThatDoNotTouchEachOtherIsThatOfEachAlone) {
