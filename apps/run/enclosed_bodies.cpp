@@ -51,6 +51,16 @@ bool is_there(const BuiltMembrane& membrane, const dynamics::Scene& scene) {
   return scene.is_there(geometry::id_at<geometry::NodeId>(membrane.first_node));
 }
 
+/// m, around points, at least one; no wider than they are.
+geometry::Box box_around(const std::vector<Vec3>& x) {
+  geometry::Box box{x.front(), x.front()};
+  for (const Vec3& point : x) {
+    box.lower = box.lower.cwiseMin(point);
+    box.upper = box.upper.cwiseMax(point);
+  }
+  return box;
+}
+
 std::vector<Body> bodies_of(const BuiltScene& built, const dynamics::Scene& scene) {
   const std::vector<Vec3>& x = scene.state.position;
   std::vector<Body> bodies;
@@ -69,7 +79,7 @@ std::vector<Body> bodies_of(const BuiltScene& built, const dynamics::Scene& scen
       body.x.push_back(x[index_of(scene.elements.spheres[sphere].nodes[0])]);
   }
   for (Body& body : bodies)
-    if (!body.x.empty()) body.box = geometry::bounding_box(body.x, 0.0);
+    if (!body.x.empty()) body.box = box_around(body.x);
   return bodies;
 }
 

@@ -96,7 +96,7 @@ TEST_F(Command, RunRefusesMoreStepsThanItCouldTakeAndAStepBeyondTheEnd) {
   EXPECT_THAT(failure_of({"simulation.time_step=1e-300 s"}).err, HasSubstr("steps of 1e-300 s"));
   EXPECT_THAT(failure_of({"simulation.duration=1e15 h"}).err, HasSubstr("simulation.duration"));
   EXPECT_THAT(failure_of({"simulation.duration=1 us", "simulation.time_step=2 us"}).err,
-              HasSubstr("longer than the duration"));
+              HasSubstr("longer than simulation.duration"));
 }
 
 TEST_F(Command, RunWarnsOfWhatMakesItsResultsDoubtful) {
