@@ -633,11 +633,9 @@ ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Ve
 }
 
 double Simulation::unbalanced_force_ratio() const {
-  nodes_.know_all();
-  const NodeState then = state_before(scene_.state, last_drift_);
-  return dynamics::unbalanced_force_ratio(
-      {then.position, forces_, scene_.properties, motion_.gravity},
-      mean_carried(resistance(), then));
+  const NodeState then = state_before(state(), last_drift_);
+  const LoadedNodesView nodes{then.position, forces_, scene_.properties, motion_.gravity};
+  return dynamics::unbalanced_force_ratio(nodes, mean_carried(resistance(), then));
 }
 
 std::vector<FacetTraction> Simulation::facet_tractions() {

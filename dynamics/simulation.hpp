@@ -284,8 +284,8 @@ class Simulation {
   /// loads may be other ones of the same kinds. Those that have been set there go on so, by place.
   /// @throws std::logic_error after the first step
   /// @throws geometry::StateMismatch if the state is of another scene, or damaged, or its step was
-  ///         chosen and this one's is given, or loads move other planes: the
-  ///         simulation can only be thrown away then
+  ///         chosen and this one's is given, or loads move other planes: the simulation can only be
+  ///         thrown away then
   void restore(const geometry::StateTree& state);
   /// The same, to and from an HDF5 file with a data set for every array of the state. load() refuses
   /// a file of another version of them, and one in which a bit has changed.

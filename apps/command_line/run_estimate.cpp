@@ -102,7 +102,7 @@ Bounds frame_bytes(const Scenario& scenario, PreparedRun& prepared, double most_
   return bytes;
 }
 
-/// Rows of energy.csv and reactions.csv, which have most of the columns in most runs.
+/// Rows of energy.csv and reactions.csv.
 Bounds table_bytes(const Scenario& scenario, double steps) {
   const double duration = scenario.simulation.duration;
   const double histories = times_of(scenario.output.history_interval, duration, steps) *

@@ -23,8 +23,8 @@ struct RunEstimate {
   /// s: with low steps of that cost; and with high steps of kLaterCost times it.
   Bounds wall_time;
   double frames = 0.0;
-  /// Of frames, energy.csv and reactions.csv: frames as they can be packed now, with the contacts of now; and not packed at
-  /// all, with `most_contacts`.
+  /// Of frames, energy.csv and reactions.csv: frames as they can be packed now, with the contacts
+  /// of now; and not packed at all, with `most_contacts`.
   Bounds bytes;
   double most_contacts = 0.0;  ///< at a time
   int threads = 1;
